@@ -1,0 +1,2 @@
+//! keikan
+fn main() {}

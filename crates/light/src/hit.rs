@@ -1,0 +1,101 @@
+//! Where light is asked for: a place on a surface, and a hit that shading looks at.
+
+use glam::{Vec2, Vec3};
+
+use crate::Ray;
+
+/// A place that receives light: a point of a surface (or of a volume, with any normal).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Where \[m\].
+    pub position: Vec3,
+    /// Bound on the distance between `position` and the true surface \[m\].
+    pub error: f32,
+    /// Unit normal of the true (flat) face, on the side that is lit.
+    pub normal: Vec3,
+    /// Decides every random choice made for this place; belongs to the thing (pixel, patch, sensor).
+    pub seed: u32,
+}
+
+impl Place {
+    /// The ray that leaves this place along the unit vector `direction`, for `length` metres.
+    ///
+    /// Its origin is moved along the normal, to the side the ray goes to, by as much as the position may
+    /// be wrong, plus the rounding of the move itself: it starts beyond the surface, never before it.
+    pub fn leave(&self, direction: Vec3, length: f32) -> Ray {
+        let side = if direction.dot(self.normal) < 0.0 { -self.normal } else { self.normal };
+        let offset = self.error * side.abs().element_sum();
+        let origin = self.position + side * offset;
+        // The addition rounds once per coordinate: step on to the next number away from the surface.
+        let next = |value: f32, toward: f32| match toward {
+            t if t > 0.0 => value.next_up(),
+            t if t < 0.0 => value.next_down(),
+            _ => value,
+        };
+        let origin = Vec3::new(next(origin.x, side.x), next(origin.y, side.y), next(origin.z, side.z));
+        Ray { origin, direction, length: (length - offset).max(0.0) }
+    }
+
+    /// The segment from this place to `target`, whose own end is not on a surface.
+    pub fn toward(&self, target: Vec3) -> Ray {
+        let to = Ray::between(self.position, target);
+        let left = self.leave(to.direction, to.length);
+        // Aim again from the moved origin, so that the segment ends at the target.
+        Ray::between(left.origin, target)
+    }
+
+    /// The same place seen from its other side.
+    pub fn flipped(self) -> Self {
+        Self { normal: -self.normal, ..self }
+    }
+}
+
+/// How a ray came here from the eye: how often it was turned and what of it is left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// Mirror reflections and refractions so far.
+    pub depth: u8,
+    /// Largest share, over the bands, that this ray still has in the eye's radiance; within \[0, 1\].
+    pub share: f32,
+}
+
+impl Path {
+    /// Straight from the eye.
+    pub const EYE: Self = Self { depth: 0, share: 1.0 };
+
+    /// The same path after one more turn that lets `share` through.
+    pub fn then(self, share: f32) -> Self {
+        Self { depth: self.depth.saturating_add(1), share: self.share * share }
+    }
+}
+
+/// A visible point of a surface, with all that shading may want to know about it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where, how exactly, and the unit normal of the flat face *on the viewer's side*.
+    pub place: Place,
+    /// Unit normal for shading (interpolated), on the viewer's side as far as the mesh allows.
+    pub shading_normal: Vec3,
+    /// Unit vector back along the viewing ray.
+    pub toward_eye: Vec3,
+    /// Distance along the viewing ray \[m\].
+    pub distance: f32,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// ∂position/∂u, the direction in which u grows on the surface \[m per unit u\]; zero without uv.
+    pub tangent: Vec3,
+    /// Width of the viewing pixel on the surface, in texture coordinates; 0 = sample without filtering.
+    pub uv_width: f32,
+    /// Linear vertex colour, a factor on the base colour; (1,1,1) without.
+    pub vertex_colour: Vec3,
+    /// Index into [`crate::Geometry::instances`].
+    pub instance: u32,
+    /// Index of the triangle within its mesh.
+    pub triangle: u32,
+    /// Which [`crate::Shade`] answers for this surface.
+    pub material: u32,
+    /// True when the ray meets the side the triangle is wound for (counter-clockwise), i.e. comes from outside.
+    pub front: bool,
+    /// How the ray came here.
+    pub path: Path,
+}

@@ -1,0 +1,51 @@
+//! The vocabulary of keikan: what every chapter says to every other.
+//!
+//! **Answers.** What light is here ([`Spectrum`], photometry, colour), where it is asked for
+//! ([`Ray`], [`Place`], [`Hit`]), what the world is made of ([`Mesh`], [`Instance`], [`Geometry`]),
+//! and the three questions that chapters answer without knowing each other:
+//!
+//! | question | trait | null answer |
+//! | --- | --- | --- |
+//! | how much of the light along this segment arrives? | [`Occlude`] | [`Vacuum`] |
+//! | what arrives at this place, from where? | [`Illuminate`] | [`Uniform`] |
+//! | what leaves this hit towards the eye? | [`Shade`] | [`Lambert`] |
+//!
+//! Two further questions carry the picture itself: [`See`] (which pieces of surface show in these
+//! pixels?) and [`Nearest`] (what does this one ray meet first?).
+//!
+//! **Leaves out.** Files, threads, acceleration structures, polarisation, fluorescence, time of flight.
+//!
+//! Units everywhere: metres, W m⁻² sr⁻¹ nm⁻¹ (radiance), W m⁻² nm⁻¹ (irradiance), W sr⁻¹ nm⁻¹
+//! (intensity); cd/m², lx, cd after [`Spectrum::luminance`]. Axes as glTF: right-handed, +Y up.
+
+pub mod bands;
+pub mod check;
+pub mod colour;
+mod film;
+mod hit;
+mod illuminate;
+pub mod interface;
+mod luminaire;
+mod mesh;
+mod occlude;
+mod ray;
+pub mod rounding;
+mod see;
+mod shade;
+mod spectrum;
+mod texture;
+mod view;
+
+pub use film::{Film, Layer};
+pub use hit::{Hit, Path, Place};
+pub use illuminate::{Arrival, Illuminate, Uniform};
+pub use interface::{fresnel, refract};
+pub use luminaire::{Distribution, Luminaire};
+pub use mesh::{Geometry, Instance, Mesh, Opacity, Triangle};
+pub use occlude::{Occlude, Product, Vacuum};
+pub use ray::Ray;
+pub use see::{Nearest, Piece, See};
+pub use shade::{Dark, Lambert, Shade, Surroundings};
+pub use spectrum::Spectrum;
+pub use texture::{Texture, Wrap};
+pub use view::{Projection, View};

@@ -1,0 +1,15 @@
+//! A scene as plain, checked data, and the only readers of files.
+//!
+//! **Answers.** [`load`] turns a scene file (TOML), a glTF/GLB model and everything they name (textures,
+//! IES and EULUMDAT photometry, terrain points) into one [`Scene`]: metres, +Y up, recentred, every index in
+//! range, every number finite. It is the last place where anything can fail on input.
+//!
+//! **Leaves out.** What to do with the data: chapters never see this crate.
+
+mod error;
+mod material;
+mod scene;
+
+pub use error::{Error, Warning};
+pub use material::{Material, NormalMap, UvTransform, Volume};
+pub use scene::*;

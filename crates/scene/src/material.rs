@@ -1,0 +1,84 @@
+//! What a surface is made of, as files describe it.
+
+use std::sync::Arc;
+
+use glam::{Affine2, Vec3};
+use light::Texture;
+
+/// Texture coordinates as the file gives them to those of one texture (KHR_texture_transform).
+pub type UvTransform = Affine2;
+
+/// A surface. Everything is a plain number as files state it; nothing spectral yet.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Its name in the file, or "".
+    pub name: String,
+    /// Linear sRGB reflectance factor, each within \[0, 1\].
+    pub base_colour: Vec3,
+    /// Factor on it over the surface (already decoded from sRGB to linear).
+    pub base_texture: Option<(Arc<Texture>, UvTransform)>,
+    /// 0 = dielectric, 1 = metal.
+    pub metallic: f32,
+    /// Perceptual roughness within \[0, 1\].
+    pub roughness: f32,
+    /// Factors over the surface: green = roughness, blue = metallic.
+    pub metallic_roughness_texture: Option<(Arc<Texture>, UvTransform)>,
+    /// Small-scale normals.
+    pub normal_map: Option<NormalMap>,
+    /// Emitted luminance per linear sRGB channel \[cd/m² of white\], emissiveFactor × emissive_strength.
+    pub emission: Vec3,
+    /// Factor on it over the surface.
+    pub emission_texture: Option<(Arc<Texture>, UvTransform)>,
+    /// Share of light that passes instead of being reflected diffusely, within \[0, 1\] (KHR_materials_transmission).
+    pub transmission: f32,
+    /// Index of refraction, ≥ 1.
+    pub ior: f32,
+    /// What fills the body behind the surface (KHR_materials_volume); none = a thin pane.
+    pub volume: Option<Volume>,
+    /// Share of light transmitted diffusely (KHR_materials_diffuse_transmission: leaves), within \[0, 1\].
+    pub diffuse_transmission: f32,
+    /// Its colour, linear sRGB.
+    pub diffuse_transmission_colour: Vec3,
+}
+
+impl Default for Material {
+    /// glTF's default: white, matt (a dielectric of roughness 1), n = 1.5, opaque.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            base_colour: Vec3::ONE,
+            base_texture: None,
+            metallic: 0.0,
+            roughness: 1.0,
+            metallic_roughness_texture: None,
+            normal_map: None,
+            emission: Vec3::ZERO,
+            emission_texture: None,
+            transmission: 0.0,
+            ior: 1.5,
+            volume: None,
+            diffuse_transmission: 0.0,
+            diffuse_transmission_colour: Vec3::ONE,
+        }
+    }
+}
+
+/// A tangent-space normal map: rgb = ½ (n + 1), not decoded from sRGB.
+#[derive(Clone, Debug)]
+pub struct NormalMap {
+    /// The image.
+    pub texture: Arc<Texture>,
+    /// Texture coordinates for it.
+    pub transform: UvTransform,
+    /// Factor on x and y.
+    pub scale: f32,
+}
+
+/// The inside of a transparent body: σ = −ln(colour)/distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Volume {
+    /// Linear sRGB that is left of white after `attenuation_distance`, each within (0, 1\].
+    pub attenuation_colour: Vec3,
+    /// \[m\], > 0; infinite = clear.
+    pub attenuation_distance: f32,
+}
