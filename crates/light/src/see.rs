@@ -19,10 +19,12 @@ pub struct Piece {
 /// Which pieces of surface show in these pixels?
 ///
 /// The pieces of one pixel stand together, in any fixed order; their shares sum to at most 1, and what is
-/// missing shows the background. The same call has the same answer to the bit, on any thread.
+/// missing shows the background. The same pixel has the same answer to the bit, on any thread and however
+/// the picture is cut into calls.
 pub trait See: Send + Sync {
-    /// Appends the pieces in `row`, `columns` to `out`, column by column.
-    fn see(&self, row: u32, columns: Range<u32>, out: &mut Vec<Piece>);
+    /// Calls `receive(row, pieces)` once for each of `rows`, from the top, with the pieces in `columns`,
+    /// column by column. `receive` may take or change the vector; it is emptied between rows.
+    fn see(&self, rows: Range<u32>, columns: Range<u32>, receive: &mut dyn FnMut(u32, &mut Vec<Piece>));
 }
 
 /// What does this ray meet first?
