@@ -1,1 +1,24 @@
-//! keikan
+//! The program: arguments → plan → pipeline → picture or lux.
+//!
+//! **Answers.** `render`, `plan`, `lux`, `compare`, `schema`. [`assemble`] is the only place that
+//! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
+//! each whole or not at all.
+//!
+//! **Leaves out.** Any model of light: those are the chapters'.
+
+pub mod args;
+pub mod assemble;
+mod caption;
+mod command;
+pub mod compare;
+mod error;
+pub mod knobs;
+pub mod lux;
+pub mod output;
+pub mod pipeline;
+pub mod plan;
+mod progress;
+pub mod report;
+
+pub use command::run;
+pub use error::Error;

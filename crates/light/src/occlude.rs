@@ -1,5 +1,7 @@
 //! How much of the light sent along this segment arrives?
 
+use std::sync::Arc;
+
 use crate::{Ray, Spectrum};
 
 /// How much of the light sent along a segment arrives at its other end?
@@ -42,5 +44,16 @@ impl Occlude for Product {
             }
         }
         product
+    }
+}
+
+/// A shared occluder is an occluder.
+impl<T: Occlude + ?Sized> Occlude for Arc<T> {
+    fn transmittance(&self, segment: &Ray) -> Spectrum {
+        (**self).transmittance(segment)
+    }
+
+    fn transmittances(&self, segments: &[Ray], out: &mut [Spectrum]) {
+        (**self).transmittances(segments, out);
     }
 }

@@ -1,0 +1,201 @@
+//! The command line.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::knobs::Preset;
+
+/// Landscape and lighting simulation: pictures and lux one can trust.
+#[derive(Debug, Parser)]
+#[command(name = "keikan", version, about, propagate_version = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// Threads to use; 0 = all the machine has. The answer does not depend on it.
+    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    pub threads: usize,
+    /// Machine-readable answer on stdout.
+    #[arg(long, global = true)]
+    pub json: bool,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Make a picture: EXR in cd/m², and PNG by a stated exposure.
+    Render(Render),
+    /// Say which stages run, with which models and knobs, and why. Renders nothing.
+    Plan(PlanArgs),
+    /// Illuminance at the scene's sensors, by source.
+    Lux(Lux),
+    /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
+    Compare(Compare),
+    /// Print the JSON Schema of scene files.
+    Schema,
+}
+
+/// What every command that looks at a scene takes.
+#[derive(Args, Clone, Debug)]
+pub struct View {
+    /// Scene file (.toml) or model (.gltf, .glb); the embedded scene `park` without one.
+    pub scene: Option<PathBuf>,
+    /// Camera by name or number (from 1).
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// Pixels: WIDTHxHEIGHT, or WIDTH at the camera's aspect.
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
+    /// Only this part of the picture: X,Y,WIDTH,HEIGHT in pixels from the top left.
+    #[arg(long, value_name = "X,Y,W,H")]
+    pub region: Option<Rectangle>,
+    /// Speed against accuracy.
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: Preset,
+    /// Choose a stage or turn a knob (see `keikan plan`); may be repeated.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+}
+
+/// `keikan render`.
+#[derive(Args, Clone, Debug)]
+pub struct Render {
+    /// The scene and the view of it.
+    #[command(flatten)]
+    pub view: View,
+    /// Where to write; .exr and .png tell the format; may be repeated. Default: the scene's name with both.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// A further layer in the EXR for every light.
+    #[arg(long)]
+    pub layers: bool,
+    /// Luminance that the PNG shows as mid grey (18 %), in cd/m²; found from the picture without it.
+    #[arg(long, value_name = "CD/M2")]
+    pub exposure: Option<f32>,
+    /// Tone curve of the PNG.
+    #[arg(long, value_enum, default_value_t)]
+    pub tone: Tone,
+    /// Write the PNG in false colour with a legend in cd/m²: `auto`, or MIN:MAX; logarithmic.
+    #[arg(long, value_name = "MIN:MAX", num_args = 0..=1, default_missing_value = "auto")]
+    pub false_colour: Option<Span>,
+    /// False colour on a linear scale.
+    #[arg(long, requires = "false_colour")]
+    pub linear: bool,
+    /// Name of the owner, written into the EXR.
+    #[arg(long, default_value = "")]
+    pub owner: String,
+}
+
+/// `keikan plan`.
+#[derive(Args, Clone, Debug)]
+pub struct PlanArgs {
+    /// The scene and the view of it.
+    #[command(flatten)]
+    pub view: View,
+}
+
+/// `keikan lux`.
+#[derive(Args, Clone, Debug)]
+pub struct Lux {
+    /// The scene.
+    #[command(flatten)]
+    pub view: View,
+}
+
+/// `keikan compare`.
+#[derive(Args, Clone, Debug)]
+pub struct Compare {
+    /// The picture to judge.
+    pub a: PathBuf,
+    /// The picture to judge it by.
+    pub b: PathBuf,
+}
+
+/// How luminance becomes grey.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Tone {
+    /// Proportional up to 80 %, highlights rolled off and bleached (Khronos PBR Neutral).
+    #[default]
+    Neutral,
+    /// Proportional, clipped at white.
+    Linear,
+}
+
+/// WIDTHxHEIGHT or WIDTH.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows, if given.
+    pub height: Option<u32>,
+}
+
+impl FromStr for Size {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let pixels = |part: &str| match part.trim().parse::<u32>() {
+            Ok(n) if (1..=65536).contains(&n) => Ok(n),
+            _ => Err(format!("\"{part}\" is not a whole number of pixels from 1 to 65536")),
+        };
+        match text.split_once(['x', 'X', '×']) {
+            Some((width, height)) => Ok(Self { width: pixels(width)?, height: Some(pixels(height)?) }),
+            None => Ok(Self { width: pixels(text)?, height: None }),
+        }
+    }
+}
+
+/// X,Y,WIDTH,HEIGHT.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rectangle {
+    /// Left.
+    pub x: u32,
+    /// Top.
+    pub y: u32,
+    /// ≥ 1.
+    pub width: u32,
+    /// ≥ 1.
+    pub height: u32,
+}
+
+impl FromStr for Rectangle {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+        match numbers.as_deref() {
+            Ok(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Self { x, y, width, height }),
+            _ => Err("four whole numbers are needed: X,Y,WIDTH,HEIGHT, the last two above 0".to_owned()),
+        }
+    }
+}
+
+/// MIN:MAX or `auto`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Span {
+    /// From the picture.
+    Auto,
+    /// As given, MIN < MAX.
+    Fixed(f32, f32),
+}
+
+impl FromStr for Span {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        let ends = text.split_once(':').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        match ends {
+            Some((low, high)) if 0.0 <= low && low < high && f32::is_finite(high) => Ok(Self::Fixed(low, high)),
+            _ => Err("MIN:MAX in cd/m², 0 ≤ MIN < MAX, or auto".to_owned()),
+        }
+    }
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("NAME=VALUE is needed".to_owned()),
+    }
+}

@@ -1,0 +1,42 @@
+//! How a command can end otherwise than well.
+
+/// Why a command did not do all that was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The caller asked for something that does not exist: exit code 2.
+    #[error("{0}")]
+    Usage(String),
+    /// The scene could not be loaded: exit code 1.
+    #[error(transparent)]
+    Scene(#[from] scene::Error),
+    /// An output could not be written whole: exit code 1.
+    #[error("{path}: {what}")]
+    Output {
+        /// Which file.
+        path: String,
+        /// Why.
+        what: String,
+    },
+    /// A picture to be compared could not be read: exit code 1.
+    #[error("{path}: {what}")]
+    Input {
+        /// Which file.
+        path: String,
+        /// Why.
+        what: String,
+    },
+    /// Ctrl-C: exit code 130.
+    #[error("interrupted; nothing was written")]
+    Interrupted,
+}
+
+impl Error {
+    /// The process exit code of this error.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage(_) => 2,
+            Self::Scene(_) | Self::Output { .. } | Self::Input { .. } => 1,
+            Self::Interrupted => 130,
+        }
+    }
+}

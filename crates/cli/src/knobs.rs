@@ -1,0 +1,219 @@
+//! Every choice a user has: stages with more than one answer, and numbers that trade time for accuracy.
+//!
+//! One table, [`KNOBS`], says what exists, what it may be set to, what each preset sets it to, and what
+//! it costs. Scene files (`[settings]`), `--set name=value` and `--preset` all speak of these names.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::Error;
+
+/// A named quality: `--preset`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Preset {
+    /// To find the view: rough edges, little sky, hard shadows.
+    Draft,
+    /// To work with.
+    #[default]
+    Normal,
+    /// To publish and to compare with; many times slower.
+    Reference,
+}
+
+/// What a knob may be set to.
+#[derive(Clone, Copy, Debug)]
+pub enum Domain {
+    /// One of these names.
+    Choice(&'static [&'static str]),
+    /// A whole number, ends included.
+    Integer(u32, u32),
+    /// A number, ends included.
+    Number(f64, f64),
+}
+
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Choice(names) => f.write_str(&names.join(" | ")),
+            Self::Integer(low, high) => write!(f, "a whole number from {low} to {high}"),
+            Self::Number(low, high) => write!(f, "a number from {low} to {high}"),
+        }
+    }
+}
+
+/// One knob.
+#[derive(Debug)]
+pub struct Knob {
+    /// Its name in `--set` and `[settings]`.
+    pub name: &'static str,
+    /// What it may be.
+    pub domain: Domain,
+    /// What draft, normal and reference set it to.
+    pub presets: [&'static str; 3],
+    /// What it decides, what it costs, what error it leaves.
+    pub doc: &'static str,
+}
+
+/// All knobs. The costs are those of `docs/measurements`.
+pub const KNOBS: &[Knob] = &[
+    Knob {
+        name: "visibility",
+        domain: Domain::Choice(&["scanline", "rays"]),
+        presets: ["scanline"; 3],
+        doc: "who finds what the eye sees: exact spans on scanlines, or jittered rays",
+    },
+    Knob {
+        name: "sub-scanlines",
+        domain: Domain::Integer(1, 64),
+        presets: ["2", "4", "16"],
+        doc: "scanlines per pixel row; time grows with it, the error of near-horizontal edges falls with its inverse",
+    },
+    Knob {
+        name: "scan-rule",
+        domain: Domain::Choice(&["trapezoid", "midpoint"]),
+        presets: ["midpoint"; 3],
+        doc: "how sub-scanlines sum to an area: thesis 2.3.3's trapezoids, or midpoints",
+    },
+    Knob {
+        name: "shading",
+        domain: Domain::Choice(&["pixel", "span"]),
+        presets: ["pixel", "pixel", "span"],
+        doc: "shade once per visible face and pixel, or once per span piece of every sub-scanline (smoother shadow edges, up to sub-scanlines times slower)",
+    },
+    Knob {
+        name: "samples",
+        domain: Domain::Integer(1, 65536),
+        presets: ["4", "16", "256"],
+        doc: "rays per pixel when visibility = rays; time grows with it, noise falls with its square root",
+    },
+    Knob {
+        name: "shadows",
+        domain: Domain::Choice(&["rays", "off"]),
+        presets: ["rays"; 3],
+        doc: "who finds what blocks light; off lets everything through (to see what shadows cost)",
+    },
+    Knob {
+        name: "accelerate",
+        domain: Domain::Choice(&["bvh", "none"]),
+        presets: ["bvh"; 3],
+        doc: "how rays find faces: a bounding volume hierarchy, or every face in turn (for comparison only)",
+    },
+    Knob {
+        name: "bvh-quality",
+        domain: Domain::Choice(&["fast", "medium", "best"]),
+        presets: ["fast", "medium", "medium"],
+        doc: "effort spent on building the hierarchy; pays when very many rays follow",
+    },
+    Knob {
+        name: "sun.samples",
+        domain: Domain::Integer(1, 4096),
+        presets: ["1", "4", "64"],
+        doc: "shadow rays over the sun's disc; 1 = its centre, i.e. no penumbra",
+    },
+    Knob {
+        name: "sky.model",
+        domain: Domain::Choice(&["scene", "clear", "overcast", "uniform", "none"]),
+        presets: ["scene"; 3],
+        doc: "luminance distribution of the sky; scene = what the scene file says",
+    },
+    Knob {
+        name: "sky.rays",
+        domain: Domain::Integer(1, 65536),
+        presets: ["16", "48", "512"],
+        doc: "rays that ask how much of the sky a place sees; time grows with it, noise falls faster than its square root",
+    },
+    Knob {
+        name: "ray-depth",
+        domain: Domain::Integer(0, 64),
+        presets: ["3", "5", "12"],
+        doc: "mirror reflections and refractions followed (thesis: 5)",
+    },
+    Knob {
+        name: "ray-share",
+        domain: Domain::Number(0.0, 1.0),
+        presets: ["0.01", "0.002", "0.0001"],
+        doc: "a ray whose share of the pixel falls below this is not followed; what it leaves out is at most this times the radiance there",
+    },
+];
+
+/// A value for every knob, checked.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(transparent)]
+pub struct Settings(BTreeMap<&'static str, String>);
+
+impl Settings {
+    /// The values of a preset.
+    pub fn preset(preset: Preset) -> Self {
+        Self(KNOBS.iter().map(|knob| (knob.name, knob.presets[preset as usize].to_owned())).collect())
+    }
+
+    /// Sets a knob by name. `whose` says who asked (`--set`, `[settings]`) in the error.
+    ///
+    /// # Errors
+    /// An unknown name or a value outside the knob's domain: a usage error that lists what is possible.
+    pub fn set(&mut self, name: &str, value: &str, whose: &str) -> Result<(), Error> {
+        let Some(knob) = KNOBS.iter().find(|knob| knob.name == name) else {
+            let known: Vec<_> = KNOBS.iter().map(|knob| knob.name).collect();
+            return Err(Error::Usage(format!(
+                "{whose}: no stage or knob is named \"{name}\"; there are: {}",
+                known.join(", ")
+            )));
+        };
+        if !knob.accepts(value) {
+            return Err(Error::Usage(format!(
+                "{whose}: {name} = \"{value}\" is not possible; it must be {}",
+                knob.domain
+            )));
+        }
+        self.0.insert(knob.name, value.to_owned());
+        Ok(())
+    }
+
+    /// The value of a knob, as text.
+    pub fn choice(&self, name: &str) -> &str {
+        self.0.get(name).map_or("", String::as_str)
+    }
+
+    /// The value of a whole-number knob.
+    pub fn integer(&self, name: &str) -> u32 {
+        self.choice(name).parse().unwrap_or(0)
+    }
+
+    /// The value of a number knob.
+    pub fn number(&self, name: &str) -> f64 {
+        self.choice(name).parse().unwrap_or(0.0)
+    }
+}
+
+impl Knob {
+    fn accepts(&self, value: &str) -> bool {
+        match self.domain {
+            Domain::Choice(names) => names.contains(&value),
+            Domain::Integer(low, high) => value.parse().is_ok_and(|v: u32| (low..=high).contains(&v)),
+            Domain::Number(low, high) => value.parse().is_ok_and(|v: f64| (low..=high).contains(&v)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_within_its_domain() {
+        for knob in KNOBS {
+            for value in knob.presets {
+                assert!(knob.accepts(value), "{} = {value}", knob.name);
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_lists_the_known_ones() {
+        let error = Settings::preset(Preset::Normal).set("visibilty", "rays", "--set").unwrap_err();
+        assert!(error.to_string().contains("visibility, sub-scanlines"), "{error}");
+        let error = Settings::preset(Preset::Normal).set("visibility", "ray", "--set").unwrap_err();
+        assert!(error.to_string().contains("scanline | rays"), "{error}");
+    }
+}

@@ -1,0 +1,82 @@
+//! OpenEXR: linear sRGB in cd/m², with everything a later reader needs to trust it.
+
+use std::io::Cursor;
+
+use exr::prelude::*;
+
+use super::Picture;
+
+/// What the file says about itself.
+#[derive(Clone, Debug, Default)]
+pub struct Header {
+    /// Degrees, north +.
+    pub latitude: f32,
+    /// Degrees, east +.
+    pub longitude: f32,
+    /// Seconds to add to local time to get UTC (OpenEXR's convention).
+    pub utc_offset: f32,
+    /// Local time `YYYY:MM:DD hh:mm:ss`.
+    pub capture_date: String,
+    /// Who owns the picture.
+    pub owner: String,
+    /// One paragraph for people.
+    pub comments: String,
+    /// Own attributes: name and text.
+    pub own: Vec<(String, String)>,
+}
+
+/// The bytes of an EXR with `R G B` and `Y` of the first picture, and `name.R …` of the others.
+///
+/// # Errors
+/// Only what the encoder itself refuses, as text.
+pub fn encode(pictures: &[Picture], header: &Header) -> Result<Vec<u8>, String> {
+    let Some(whole) = pictures.first() else { return Err("there is no picture".to_owned()) };
+    let mut channels = SmallVec::new();
+    for picture in pictures {
+        let prefix = if picture.name.is_empty() { String::new() } else { format!("{}.", picture.name) };
+        let plane = |i: usize| FlatSamples::F32(picture.rgb.iter().map(|rgb| rgb[i]).collect());
+        for (i, name) in ["R", "G", "B"].into_iter().enumerate() {
+            channels.push(AnyChannel::new(format!("{prefix}{name}").as_str(), plane(i)));
+        }
+    }
+    channels.push(AnyChannel::new("Y", FlatSamples::F32(whole.luminance.clone())));
+    let size = Vec2(whole.width, whole.height);
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let layer = Layer::new(size, attributes(header), encoding, AnyChannels::sort(channels));
+    let mut image = Image::from_layer(layer);
+    image.attributes.chromaticities = Some(attribute::Chromaticities {
+        red: Vec2(0.64, 0.33),
+        green: Vec2(0.30, 0.60),
+        blue: Vec2(0.15, 0.06),
+        white: Vec2(0.3127, 0.3290),
+    });
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+fn attributes(header: &Header) -> LayerAttributes {
+    let text = |text: &str| Text::new_or_none(text);
+    let mut attributes = LayerAttributes {
+        // Pixels are cd/m²: RGB (1, 1, 1) is a white of 1 cd/m².
+        white_luminance: Some(1.0),
+        latitude: Some(header.latitude),
+        longitude: Some(header.longitude),
+        utc_offset: Some(header.utc_offset),
+        capture_date: text(&header.capture_date),
+        owner: text(&header.owner),
+        comments: text(&header.comments),
+        software_name: text(concat!("keikan ", env!("CARGO_PKG_VERSION"))),
+        ..LayerAttributes::default()
+    };
+    for (name, value) in &header.own {
+        if let (Some(name), Some(value)) = (text(name), text(value)) {
+            attributes.other.insert(name, AttributeValue::Text(value));
+        }
+    }
+    attributes
+}

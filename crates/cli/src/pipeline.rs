@@ -1,0 +1,211 @@
+//! The assembled stages, and the two things they do together: a picture, and lux.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::Arc;
+
+use glam::DVec2;
+use light::{Arrival, Film, Illuminate, Layer, Nearest, Occlude, Path, Piece, Place, Ray, See, Shade, Spectrum, Surroundings, View};
+use rayon::prelude::*;
+
+use crate::Error;
+
+/// A named light.
+pub struct Source {
+    /// The name that layers and lux tables show.
+    pub name: String,
+    /// What arrives from it.
+    pub light: Box<dyn Illuminate>,
+}
+
+/// How far mirrored and refracted rays are followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Turns.
+    pub depth: u8,
+    /// Share in the eye's radiance below which a ray is not followed.
+    pub share: f32,
+}
+
+/// The stages of one scene and view. Knows no chapter: only the questions.
+pub struct Pipeline {
+    /// From the world to the picture.
+    pub view: View,
+    /// Which pieces of surface show.
+    pub see: Box<dyn See>,
+    /// What a further ray meets.
+    pub nearest: Arc<dyn Nearest>,
+    /// By material index.
+    pub shade: Vec<Box<dyn Shade>>,
+    /// Every light.
+    pub sources: Vec<Source>,
+    /// What stands in light's way.
+    pub occlude: Box<dyn Occlude>,
+    /// When to stop.
+    pub limits: Limits,
+}
+
+/// A part of the picture, in pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// Columns.
+    pub columns: Range<u32>,
+    /// Rows, from the top.
+    pub rows: Range<u32>,
+}
+
+/// What the outside wants to know and say while a picture is made.
+#[derive(Debug, Default)]
+pub struct Monitor {
+    /// Set to end early.
+    pub interrupted: AtomicBool,
+    /// Rows done.
+    pub rows: AtomicU64,
+    /// Pieces of surface shaded.
+    pub pieces: AtomicU64,
+}
+
+/// Rows per task: enough that neighbouring scanlines share their work, few enough that threads stay busy.
+const BAND: u32 = 8;
+
+impl Pipeline {
+    /// Renders `region` into a film of the region's size.
+    ///
+    /// With `parts`, the film has a further layer for each source (what the picture would be with that
+    /// source alone) and one named `emission`; their sum is the picture, because light adds.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`] when the monitor says so.
+    pub fn render(&self, region: &Region, parts: bool, monitor: &Monitor) -> Result<Film, Error> {
+        let (width, height) = (region.columns.len(), region.rows.len());
+        let everything: Vec<usize> = (0..self.sources.len()).collect();
+        let mut lit_by = vec![(String::new(), everything)];
+        if parts {
+            lit_by.extend(self.sources.iter().enumerate().map(|(i, source)| (source.name.clone(), vec![i])));
+            lit_by.push(("emission".to_owned(), Vec::new()));
+        }
+        let mut pixels = vec![Spectrum::ZERO; width * height * lit_by.len()];
+        // A band's rows of all layers lie together, so that bands are disjoint slices.
+        let band_len = BAND as usize * width * lit_by.len();
+        pixels.par_chunks_mut(band_len.max(1)).enumerate().for_each(|(band, pixels)| {
+            if monitor.interrupted.load(Ordering::Relaxed) {
+                return;
+            }
+            let first = region.rows.start + band as u32 * BAND;
+            let rows = first..(first + BAND).min(region.rows.end);
+            let done = rows.len() as u64;
+            self.band(rows, region.columns.clone(), &lit_by, pixels, monitor);
+            monitor.rows.fetch_add(done, Ordering::Relaxed);
+        });
+        if monitor.interrupted.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        Ok(film(width, height, lit_by.into_iter().map(|(name, _)| name), pixels))
+    }
+
+    fn band(
+        &self,
+        rows: Range<u32>,
+        columns: Range<u32>,
+        lit_by: &[(String, Vec<usize>)],
+        pixels: &mut [Spectrum],
+        monitor: &Monitor,
+    ) {
+        let first = rows.start;
+        let width = columns.len();
+        self.see.see(rows, columns.clone(), &mut |row, pieces| {
+            monitor.pieces.fetch_add(pieces.len() as u64, Ordering::Relaxed);
+            let start = (row - first) as usize * width * lit_by.len();
+            for (layer, (_, sources)) in lit_by.iter().enumerate() {
+                let around = Around { pipeline: self, sources };
+                let line = &mut pixels[start + layer * width..][..width];
+                self.shade_row(row, columns.start, pieces, &around, line);
+            }
+            if lit_by.len() > 1 {
+                separate_emission(&mut pixels[start..][..width * lit_by.len()], width);
+            }
+        });
+    }
+
+    fn shade_row(&self, row: u32, first: u32, pieces: &[Piece], around: &Around, line: &mut [Spectrum]) {
+        let mut covered = vec![0.0f32; line.len()];
+        for piece in pieces {
+            let column = (piece.column - first) as usize;
+            line[column] += around.leaves(&piece.hit) * piece.share;
+            covered[column] += piece.share;
+        }
+        for (column, (pixel, covered)) in line.iter_mut().zip(covered).enumerate() {
+            // Shares are sums of f32 areas: what is missing by rounding alone is no background.
+            let open = 1.0 - covered;
+            if open > 1e-5 {
+                let at = DVec2::new(f64::from(first) + column as f64 + 0.5, f64::from(row) + 0.5);
+                *pixel += around.background(&self.view.ray(at)) * open;
+            }
+        }
+    }
+
+    /// Irradiance on the plane of `place` by each source \[W m⁻² nm⁻¹\], in the order of `sources`.
+    pub fn irradiances(&self, place: &Place) -> Vec<Spectrum> {
+        self.sources.iter().map(|source| source.light.irradiance(place, &*self.occlude)).collect()
+    }
+}
+
+/// The pipeline as one shader sees it: all sources, or those of one layer.
+struct Around<'a> {
+    pipeline: &'a Pipeline,
+    sources: &'a [usize],
+}
+
+impl Around<'_> {
+    fn leaves(&self, hit: &light::Hit) -> Spectrum {
+        match self.pipeline.shade.get(hit.material as usize) {
+            Some(shade) => shade.radiance(hit, self),
+            None => Spectrum::ZERO,
+        }
+    }
+
+    fn background(&self, ray: &Ray) -> Spectrum {
+        self.sources.iter().map(|&i| self.pipeline.sources[i].light.radiance(ray)).sum()
+    }
+}
+
+impl Surroundings for Around<'_> {
+    fn arrivals(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
+        for &i in self.sources {
+            self.pipeline.sources[i].light.arrivals(place, &*self.pipeline.occlude, receive);
+        }
+    }
+
+    fn radiance(&self, ray: &Ray, path: Path) -> Spectrum {
+        if path.depth > self.pipeline.limits.depth || path.share < self.pipeline.limits.share {
+            return Spectrum::ZERO;
+        }
+        match self.pipeline.nearest.nearest(ray) {
+            Some(mut hit) => {
+                hit.path = path;
+                self.leaves(&hit)
+            }
+            None => self.background(ray),
+        }
+    }
+}
+
+/// Layers of single sources hold what surfaces emit as well; it belongs to the last layer alone.
+fn separate_emission(rows: &mut [Spectrum], width: usize) {
+    let (parts, emission) = rows.split_at_mut(rows.len() - width);
+    for part in parts[width..].chunks_mut(width) {
+        part.iter_mut().zip(emission.iter()).for_each(|(part, own)| *part = *part - *own);
+    }
+}
+
+/// From rows with all layers side by side to one picture per layer.
+fn film(width: usize, height: usize, names: impl ExactSizeIterator<Item = String>, rows: Vec<Spectrum>) -> Film {
+    let count = names.len();
+    let pick = |layer: usize| -> Vec<Spectrum> {
+        (0..height).flat_map(|row| rows[(row * count + layer) * width..][..width].iter().copied()).collect()
+    };
+    let (width32, height32) = (width as u32, height as u32);
+    let pictures = if count == 1 { vec![rows] } else { (0..count).map(pick).collect() };
+    let layers = names.zip(pictures).map(|(name, pixels)| Layer { name, pixels }).collect();
+    Film { width: width32, height: height32, layers }
+}

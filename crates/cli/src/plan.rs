@@ -1,0 +1,233 @@
+//! What will be done, with what, and why: plain data between the arguments and the pipeline.
+
+use std::fmt;
+
+use scene::{Camera, Scene};
+
+use crate::knobs::{Preset, Settings};
+use crate::pipeline::Region;
+use crate::{Error, args};
+
+/// Most pixels of one picture: 2²⁸ spectra are 8 GiB.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Everything decided before anything is built.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Plan {
+    /// Name of the camera.
+    pub camera: String,
+    /// Pixels in a row of the whole picture.
+    pub width: u32,
+    /// Rows of the whole picture.
+    pub height: u32,
+    /// Which part of it is made.
+    #[serde(skip)]
+    pub region: Region,
+    /// Where the choices come from.
+    pub preset: Preset,
+    /// What the scene holds.
+    pub contents: Contents,
+    /// Which stages run, in the order light takes them, and which do not.
+    pub stages: Vec<Stage>,
+    /// Every knob.
+    pub settings: Settings,
+}
+
+/// What a scene holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Contents {
+    /// Triangles in all placements together.
+    pub triangles: usize,
+    /// Triangles kept in memory.
+    pub stored_triangles: usize,
+    /// Placements.
+    pub instances: usize,
+    /// Materials.
+    pub materials: usize,
+    /// Lamps.
+    pub lights: usize,
+    /// Faces that are not solid: alpha textures.
+    pub cut_out_triangles: usize,
+}
+
+/// One stage and the answer chosen for it.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Stage {
+    /// `see`, `shade`, `illuminate`, `occlude`.
+    pub question: &'static str,
+    /// Who answers; empty = the stage is left out.
+    pub answer: String,
+    /// Why.
+    pub why: String,
+}
+
+impl Plan {
+    /// Decides for `scene` what `args` ask.
+    ///
+    /// # Errors
+    /// An unknown camera, stage, knob, or a size or region that cannot be: usage errors.
+    pub fn new(scene: &Scene, args: &args::View) -> Result<Self, Error> {
+        let mut settings = Settings::preset(args.preset);
+        for (name, value) in &scene.settings {
+            settings.set(name, value, "[settings]")?;
+        }
+        for (name, value) in &args.set {
+            settings.set(name, value, "--set")?;
+        }
+        let camera = camera(scene, args.camera.as_deref())?;
+        let (width, height) = size(camera, args.size)?;
+        let contents = Contents::of(scene);
+        Ok(Self {
+            camera: camera.name.clone(),
+            width,
+            height,
+            region: region(args.region, width, height)?,
+            preset: args.preset,
+            stages: stages(scene, &settings, contents),
+            contents,
+            settings,
+        })
+    }
+
+    /// The camera that was chosen.
+    pub fn camera<'a>(&self, scene: &'a Scene) -> Option<&'a Camera> {
+        scene.cameras.iter().find(|camera| camera.name == self.camera)
+    }
+}
+
+impl Contents {
+    fn of(scene: &Scene) -> Self {
+        let geometry = &scene.geometry;
+        Self {
+            triangles: geometry.triangle_count(),
+            stored_triangles: geometry.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
+            instances: geometry.instances.len(),
+            materials: scene.materials.len(),
+            lights: scene.lights.len(),
+            cut_out_triangles: geometry
+                .instances
+                .iter()
+                .map(|instance| &geometry.meshes[instance.mesh as usize])
+                .filter(|mesh| mesh.opacity.is_some())
+                .map(|mesh| mesh.triangles.len())
+                .sum(),
+        }
+    }
+}
+
+/// A camera by name, or by its number from 1; the first without either.
+fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Error> {
+    let by_number = |text: &str| text.parse::<usize>().ok().and_then(|n| scene.cameras.get(n.checked_sub(1)?));
+    let found = match wanted {
+        None => scene.cameras.first(),
+        Some(name) => scene.cameras.iter().find(|camera| camera.name == name).or_else(|| by_number(name)),
+    };
+    found.ok_or_else(|| {
+        let names: Vec<_> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
+        Error::Usage(format!(
+            "--camera {}: no such camera; there are: {}",
+            wanted.unwrap_or("(none)"),
+            names.join(", ")
+        ))
+    })
+}
+
+/// Pixels of the picture: as asked, or 1280 wide at the camera's own aspect (16:10 where it states none).
+fn size(camera: &Camera, asked: Option<args::Size>) -> Result<(u32, u32), Error> {
+    let aspect = camera.aspect.unwrap_or(1.6);
+    let asked = asked.unwrap_or(args::Size { width: 1280, height: None });
+    let height = asked.height.unwrap_or_else(|| (f64::from(asked.width) / aspect).round().clamp(1.0, 1e9) as u32);
+    if u64::from(asked.width) * u64::from(height) > MOST_PIXELS {
+        return Err(Error::Usage(format!(
+            "--size {}x{height}: more than {MOST_PIXELS} pixels; render it in parts with --region",
+            asked.width
+        )));
+    }
+    Ok((asked.width, height))
+}
+
+fn region(asked: Option<args::Rectangle>, width: u32, height: u32) -> Result<Region, Error> {
+    let Some(r) = asked else { return Ok(Region { columns: 0..width, rows: 0..height }) };
+    let (right, bottom) = (r.x.saturating_add(r.width), r.y.saturating_add(r.height));
+    if right > width || bottom > height {
+        return Err(Error::Usage(format!(
+            "--region {},{},{},{}: reaches beyond the picture of {width}x{height}",
+            r.x, r.y, r.width, r.height
+        )));
+    }
+    Ok(Region { columns: r.x..right, rows: r.y..bottom })
+}
+
+/// Which model of the sky runs: the knob's, or the scene's own; `none` where neither names one.
+pub(crate) fn sky_model<'a>(scene: &'a Scene, settings: &'a Settings) -> &'a str {
+    match settings.choice("sky.model") {
+        "scene" => scene.sky.as_ref().map_or("none", |sky| sky.model.as_str()),
+        other => other,
+    }
+}
+
+fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> {
+    let stage = |question, answer: &str, why: String| Stage { question, answer: answer.to_owned(), why };
+    let see = match settings.choice("visibility") {
+        "rays" => stage("see", "rays", format!("visibility = rays, {} a pixel", settings.choice("samples"))),
+        _ => stage(
+            "see",
+            "scanline",
+            format!(
+                "{} triangles, {} of them cut out by alpha; {} sub-scanlines",
+                contents.triangles, contents.cut_out_triangles, settings.choice("sub-scanlines")
+            ),
+        ),
+    };
+    let shade = stage("shade", "surface", format!("{} materials", contents.materials));
+    let sun = match &scene.sun {
+        Some(sun) if sun.altitude > -1.0 => stage(
+            "illuminate",
+            "sun",
+            format!("{:.2}° high, azimuth {:.2}°, disc of {:.3}°", sun.altitude, sun.azimuth, sun.diameter),
+        ),
+        Some(sun) => stage("illuminate", "", format!("no sun: it is {:.2}° below the horizon", -sun.altitude)),
+        None => stage("illuminate", "", "no sun: the scene has none".to_owned()),
+    };
+    let sky = match sky_model(scene, settings) {
+        "none" => stage("illuminate", "", "no sky: none is asked for".to_owned()),
+        model => stage("illuminate", &format!("sky {model}"), format!("{} rays a place", settings.choice("sky.rays"))),
+    };
+    let lamps = match scene.lights.len() {
+        0 => stage("illuminate", "", "no luminaires: the scene has none".to_owned()),
+        n => stage("illuminate", "luminaires", format!("{n} in the scene")),
+    };
+    let lit = !(sun.answer.is_empty() && sky.answer.is_empty() && lamps.answer.is_empty());
+    let occlude = match (settings.choice("shadows"), lit) {
+        (_, false) => stage("occlude", "", "no shadows: there is no light".to_owned()),
+        ("off", _) => stage("occlude", "", "no shadows: shadows = off".to_owned()),
+        _ => stage("occlude", &format!("rays ({})", settings.choice("accelerate")), "something is lit".to_owned()),
+    };
+    let mut stages = vec![see, shade, sun, sky, lamps, occlude];
+    for (what, chapter) in [("water", "no [[water]]"), ("trees", "no [[tree]]")] {
+        stages.push(stage("all three", "", format!("no {what}: the scene has {chapter}")));
+    }
+    stages
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "camera {}, {} x {} pixels, preset {:?}", self.camera, self.width, self.height, self.preset)?;
+        let c = &self.contents;
+        writeln!(
+            f,
+            "{} triangles ({} stored) in {} placements, {} materials, {} lights",
+            c.triangles, c.stored_triangles, c.instances, c.materials, c.lights
+        )?;
+        writeln!(f, "\nstages")?;
+        for stage in &self.stages {
+            let answer = if stage.answer.is_empty() { "-" } else { &stage.answer };
+            writeln!(f, "  {:<11} {:<16} {}", stage.question, answer, stage.why)?;
+        }
+        writeln!(f, "\nknobs")?;
+        for knob in crate::knobs::KNOBS {
+            writeln!(f, "  {:<14} {:<10} {}", knob.name, self.settings.choice(knob.name), knob.doc)?;
+        }
+        Ok(())
+    }
+}
