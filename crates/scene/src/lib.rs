@@ -9,7 +9,9 @@
 mod error;
 mod material;
 mod scene;
+mod sun;
 
 pub use error::{Error, Warning};
 pub use material::{Material, NormalMap, UvTransform, Volume};
 pub use scene::*;
+pub use sun::SUN_DIAMETER;
