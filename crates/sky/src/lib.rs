@@ -1,1 +1,46 @@
-//! To be written.
+//! Sun and sky as light sources.
+//!
+//! **Answers.** What arrives from the sun's disc ([`Sun`]) and from the sky all around ([`Dome`]), as
+//! [`light::Illuminate`]; what a clear atmosphere leaves of the direct beam ([`atmosphere`]); how bright the
+//! sky is by the sun's altitude ([`diffuse_illuminance`]).
+//!
+//! **Leaves out.** Where the sun stands at a date and place; clouds with a shape; the sun's darker limb;
+//! refraction; moon and stars. The skies are standard *luminance* distributions with one spectrum each: how
+//! colour changes over the sky awaits a spectral model.
+//!
+//! **Known to be wrong.** The clear sky's illuminance and the direct beam come from different sources (IES
+//! medians; an atmosphere with a turbidity) and are consistent only for ordinary clear air. Light from below
+//! the horizon ignores shadows on the ground. A place whose normal sees little of the sky (deep under
+//! a roof) is noisy, since directions are chosen by the cosine, not by what is open.
+//!
+//! ```
+//! use glam::Vec3;
+//! use light::{Illuminate, Place, Vacuum};
+//! use keikan_sky::{DIAMETER_DEG, Description, Dome, Pattern, Sun, atmosphere};
+//!
+//! let altitude = 40.0_f64;
+//! let (sin, cos) = altitude.to_radians().sin_cos();
+//! let toward = Vec3::new(0.0, sin as f32, cos as f32); // in the south: north is −Z
+//! let beam = atmosphere::direct_beam(altitude, 0.0, atmosphere::CLEAR_TURBIDITY);
+//! let sun = Sun { toward, irradiance: beam, angular_diameter_deg: DIAMETER_DEG, samples: 16 };
+//! let sky = Dome::new(&Description { sun_horizontal: beam * toward.y, ..Description::new(Pattern::Clear, toward) });
+//!
+//! let lawn = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };
+//! let [direct, diffuse] = [&sun as &dyn Illuminate, &sky].map(|s| s.irradiance(&lawn, &Vacuum).luminance());
+//! assert!(direct > 40_000.0 && diffuse > 10_000.0); // lx
+//! ```
+
+pub mod atmosphere;
+mod daylight;
+mod dome;
+mod open_sky;
+mod pattern;
+mod sampling;
+mod solar_spectrum;
+mod sun;
+
+pub use daylight::diffuse_illuminance;
+pub use dome::{CLEAR_TEMPERATURE, Description, Dome, GROUND_ALBEDO, OVERCAST_TEMPERATURE, SAMPLES};
+pub use pattern::Pattern;
+pub use solar_spectrum::extraterrestrial;
+pub use sun::{DIAMETER_DEG, Sun};

@@ -1,0 +1,124 @@
+//! Sets of directions, stratified and decided by a seed, and their occlusion asked for in batches.
+
+use std::f32::consts::TAU;
+
+use glam::Vec3;
+use light::{Occlude, Ray, Spectrum};
+
+/// A place for a point of the unit square that one seed and one purpose decide.
+///
+/// `purpose` keeps sets apart that share a seed (the sun's and the sky's must not move together).
+pub(crate) fn shift(seed: u32, purpose: u32) -> [u32; 2] {
+    let first = scramble(seed ^ purpose.wrapping_mul(0x9E37_79B9));
+    [first, scramble(first ^ 0x85EB_CA6B)]
+}
+
+/// A bijection of the 32-bit numbers without visible pattern (the finaliser of MurmurHash3).
+fn scramble(mut x: u32) -> u32 {
+    x = (x ^ (x >> 16)).wrapping_mul(0x85EB_CA6B);
+    x = (x ^ (x >> 13)).wrapping_mul(0xC2B2_AE35);
+    x ^ (x >> 16)
+}
+
+/// Point `i` of `count` of the golden lattice, moved by `shift` around the torus; each within \[0, 1).
+///
+///   ( i/count, i (√5 − 1)/2 ) mod 1
+///
+/// One point in each of `count` columns, and the rows filled as evenly as any row of points can be.
+pub(crate) fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
+    let column = ((u64::from(i) << 32) / u64::from(count.max(1))) as u32;
+    let row = i.wrapping_mul(0x9E37_79B9);
+    [column.wrapping_add(shift[0]), row.wrapping_add(shift[1])].map(|x| (x >> 8) as f32 / 16_777_216.0)
+}
+
+/// The point of the unit disc that belongs to a point of the unit square, areas kept.
+pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
+    let radius = at[0].sqrt();
+    let (sin, cos) = (TAU * at[1]).sin_cos();
+    [radius * cos, radius * sin]
+}
+
+/// The direction around unit `normal` that belongs to a point of the unit square: density cos θ/π.
+///
+/// A point of the unit disc, raised to the hemisphere above it (Malley).
+pub(crate) fn cosine_hemisphere(normal: Vec3, at: [f32; 2]) -> Vec3 {
+    let [x, y] = disc(at);
+    let (tangent, bitangent) = normal.any_orthonormal_pair();
+    // at[0] ≤ 1 − 2⁻²⁴, so that the height is at least 2⁻¹²: never on the plane itself.
+    (tangent * x + bitangent * y + normal * (1.0 - at[0]).sqrt()).normalize()
+}
+
+/// Rays asked for in one call to an occluder.
+const BATCH: usize = 64;
+
+/// Asks `occlude` for every ray, in batches, and hands each answer on with what came along with the ray.
+pub(crate) fn transmit<T: Copy>(
+    occlude: &dyn Occlude,
+    rays: impl Iterator<Item = (Ray, T)>,
+    mut receive: impl FnMut(T, Spectrum),
+) {
+    let mut rays = rays.peekable();
+    let Some(&(ray, tag)) = rays.peek() else { return };
+    let (mut segments, mut tags, mut answers) = ([ray; BATCH], [tag; BATCH], [Spectrum::ZERO; BATCH]);
+    while rays.peek().is_some() {
+        let mut count = 0;
+        for (slot, (ray, tag)) in rays.by_ref().take(BATCH).enumerate() {
+            (segments[slot], tags[slot]) = (ray, tag);
+            count = slot + 1;
+        }
+        occlude.transmittances(&segments[..count], &mut answers[..count]);
+        tags[..count].iter().zip(&answers).for_each(|(&tag, &answer)| receive(tag, answer));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use light::Vacuum;
+
+    use super::*;
+
+    #[test]
+    fn a_lattice_has_one_point_in_each_column() {
+        for count in [1, 7, 64, 1000] {
+            let mut seen = vec![0; count as usize];
+            let offset = shift(5, 1);
+            for i in 0..count {
+                // Half a column inwards, so that rounding at the edges of columns decides nothing.
+                let at = lattice(i, count, [offset[0], offset[1]]);
+                let start = (offset[0] >> 8) as f32 / 16_777_216.0;
+                let column = ((at[0] - start + 1.0 + 0.5 / count as f32) * count as f32) as u32 % count;
+                seen[column as usize] += 1;
+                assert!(at.iter().all(|x| (0.0..1.0).contains(x)));
+            }
+            assert!(seen.iter().all(|&n| n == 1), "{count}");
+        }
+    }
+
+    #[test]
+    fn directions_lie_above_their_plane_with_a_mean_cosine_of_two_thirds() {
+        for normal in [Vec3::Y, Vec3::NEG_Y, Vec3::new(0.6, 0.0, -0.8), Vec3::NEG_Z] {
+            let count = 256;
+            let cosines = (0..count).map(|i| {
+                let at = lattice(i, count, shift(9, 2));
+                normal.dot(cosine_hemisphere(normal, at))
+            });
+            let mean = cosines.inspect(|&cos| assert!(cos > 0.0)).sum::<f32>() / count as f32;
+            // E[cos] = 2/3 under density cos/π. cos = √(1 − u) has variation 1; one point per column errs by
+            // at most 1/count.
+            assert!((mean - 2.0 / 3.0).abs() <= 1.0 / count as f32, "{normal}: {mean}");
+        }
+    }
+
+    #[test]
+    fn every_ray_is_answered_once_in_order() {
+        for count in [0u32, 1, 63, 64, 65, 200] {
+            let rays = (0..count).map(|i| (Ray::new(Vec3::ZERO, Vec3::Y), i));
+            let mut tags = Vec::new();
+            transmit(&Vacuum, rays, |tag, answer| {
+                assert_eq!(answer, Spectrum::ONE);
+                tags.push(tag);
+            });
+            assert_eq!(tags, (0..count).collect::<Vec<_>>());
+        }
+    }
+}
