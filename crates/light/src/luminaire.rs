@@ -88,8 +88,11 @@ impl Distribution {
             let gamma = (i as f64 + 0.5) * h;
             for j in 0..2 * steps {
                 let c = (j as f64 + 0.5) * h;
-                let direction =
-                    Vec3::new((gamma.sin() * c.cos()) as f32, (gamma.sin() * c.sin()) as f32, -gamma.cos() as f32);
+                let direction = Vec3::new(
+                    (gamma.sin() * c.cos()) as f32,
+                    (gamma.sin() * c.sin()) as f32,
+                    -gamma.cos() as f32,
+                );
                 sum += f64::from(self.intensity(direction)) * gamma.sin() * h * h;
             }
         }
