@@ -38,7 +38,7 @@ pub enum Command {
 }
 
 /// What every command that looks at a scene takes.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct View {
     /// Scene file (.toml) or model (.gltf, .glb); the embedded scene `park` without one.
     pub scene: Option<PathBuf>,

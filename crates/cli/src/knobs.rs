@@ -124,6 +124,18 @@ pub const KNOBS: &[Knob] = &[
         doc: "rays that ask how much of the sky a place sees; time grows with it, noise falls faster than its square root",
     },
     Knob {
+        name: "sky.albedo",
+        domain: Domain::Number(0.0, 1.0),
+        presets: ["0.2"; 3],
+        doc: "reflectance of the endless ground that sends sky and sun light back up from below the horizon",
+    },
+    Knob {
+        name: "sky.ground",
+        domain: Domain::Choice(&["open", "hidden"]),
+        presets: ["open"; 3],
+        doc: "whether that ground's light passes the scene's own ground (one bounce, as if nothing shaded the ground) or is hidden by it",
+    },
+    Knob {
         name: "ray-depth",
         domain: Domain::Integer(0, 64),
         presets: ["3", "5", "12"],

@@ -1,7 +1,9 @@
 //! Lights of the scene → sources of the pipeline.
 
-use light::{Luminaire, Spectrum};
+use glam::Vec3;
+use light::{Geometry, Luminaire, Spectrum};
 use scene::{LightSpectrum, Scene};
+use sky::{Description, Dome, Pattern, Sun, atmosphere};
 
 use crate::Error;
 use crate::knobs::Settings;
@@ -32,4 +34,83 @@ fn colour(spectrum: &LightSpectrum) -> Spectrum {
         LightSpectrum::Rgb(rgb) => Spectrum::light_of_colour(*rgb),
         LightSpectrum::Table(table) => Spectrum::from_table(table).of_luminance(1.0),
     }
+}
+
+/// The sun's beam facing it \[W m⁻² nm⁻¹\]: as stated, or what clear air lets through.
+fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
+    let own = atmosphere::direct_beam(sun.altitude, scene.site.elevation, atmosphere::CLEAR_TURBIDITY);
+    let coloured = match &sun.spectrum {
+        Some(spectrum) => colour(spectrum).of_luminance(own.luminance()),
+        None => own,
+    };
+    match sun.illuminance {
+        // A stated illuminance of a sun whose own beam has faded away is white.
+        Some(lux) if coloured.is_zero() => Spectrum::ONE.of_luminance(lux as f32),
+        Some(lux) => coloured.of_luminance(lux as f32),
+        None => coloured,
+    }
+}
+
+fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
+    let sun = scene.sun.as_ref()?;
+    let light = Sun {
+        toward: sun.toward.as_vec3(),
+        irradiance: beam(scene, sun),
+        angular_diameter_deg: sun.diameter as f32,
+        samples: settings.integer("sun.samples"),
+    };
+    let risen = sun.altitude > -0.5 * sun.diameter;
+    (risen && !light.irradiance.is_zero()).then(|| Source { name: "sun".to_owned(), light: Box::new(light) })
+}
+
+fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
+    let model = plan::sky_model(scene, settings);
+    if model == "none" {
+        return Ok(None);
+    }
+    let pattern = Pattern::named(model).ok_or_else(|| {
+        let known: Vec<_> = Pattern::ALL.iter().map(|pattern| pattern.name()).collect();
+        Error::Usage(format!("[sky] model = \"{model}\": no such sky; there are: {}, none", known.join(", ")))
+    })?;
+    let sun = scene.sun.as_ref();
+    let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
+    let sun_horizontal = sun.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+    let description = Description {
+        illuminance: scene.sky.as_ref().and_then(|sky| sky.illuminance).map(|lux| lux as f32),
+        sun_horizontal,
+        albedo: settings.number("sky.albedo") as f32,
+        ground_height: match settings.choice("sky.ground") {
+            "open" => ground_height(&scene.geometry),
+            _ => None,
+        },
+        samples: settings.integer("sky.rays"),
+        ..Description::new(pattern, toward_sun)
+    };
+    Ok(Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)) }))
+}
+
+/// Height of the scene's own ground \[m\]: the median height of its level faces, by area; a tenth of a per
+/// mille of the scene's height above it, so that the ground itself does not hide the ground's light.
+fn ground_height(geometry: &Geometry) -> Option<f32> {
+    let (low, high) = geometry.bounds()?;
+    let mut level: Vec<(f64, f64)> = Vec::new();
+    for (i, instance) in geometry.instances.iter().enumerate() {
+        for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
+            let triangle = geometry.triangle(i as u32, t as u32);
+            let cross = triangle.cross();
+            // Steeper than 45° is a wall, not ground.
+            if cross.y.abs() > 0.7 * cross.length() {
+                let [a, b, c] = triangle.0;
+                level.push(((a.y + b.y + c.y) / 3.0, cross.length()));
+            }
+        }
+    }
+    level.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let half = 0.5 * level.iter().map(|(_, area)| area).sum::<f64>();
+    let mut sum = 0.0;
+    let median = level.iter().find(|(_, area)| {
+        sum += area;
+        sum >= half
+    });
+    median.map(|(height, _)| (height + 1e-4 * (high.y - low.y)) as f32)
 }
