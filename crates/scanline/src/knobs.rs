@@ -1,0 +1,40 @@
+//! What can be chosen, with what it costs and leaves.
+
+/// How finely and by which rule coverage is measured. [`Knobs::default`] is the measured best buy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Knobs {
+    /// Strips that a pixel row is cut into, 1..=64 (values outside are brought inside). Time grows in
+    /// proportion; the error of an edge's coverage falls about as the power −1 for horizontal edges and
+    /// −2 for slanted ones.
+    pub sub_scanlines: u32,
+    /// How areas are summed from the lengths on the sub-scanlines.
+    pub rule: Rule,
+    /// How often a face is shaded.
+    pub shading: Shading,
+}
+
+impl Default for Knobs {
+    fn default() -> Self {
+        Self { sub_scanlines: 4, rule: Rule::Midpoint, shading: Shading::PerPixel }
+    }
+}
+
+/// Where the sub-scanlines of a row lie and what they weigh (h = 1/`sub_scanlines`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// On the borders of the strips, weights h/2, h, …, h, h/2 (thesis 2.3.3); neighbouring rows share a
+    /// line, so that a row costs as many lines as it has strips.
+    Trapezoid,
+    /// In the middle of each strip, weights h.
+    Midpoint,
+}
+
+/// How often a face is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// Once per visible face and pixel, at the centroid of what shows of it.
+    PerPixel,
+    /// Once per visible span and pixel on each sub-scanline, at the middle: about `sub_scanlines` times
+    /// the shading, for surfaces that vary within a pixel. Faces with an opacity stay at once per pixel.
+    PerSpan,
+}

@@ -1,0 +1,134 @@
+//! One pixel: which faces show in it, how much of each, and where.
+
+use crate::segment::Segment;
+
+/// A face's visible part of a pixel, or of one span in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cover {
+    pub(crate) face: u32,
+    /// Visible area, as if nothing transparent lay in front \[pixel\].
+    pub(crate) area: f64,
+    /// Area times x and area times y.
+    pub(crate) moment: [f64; 2],
+    /// Share of the pixel: the area times what veils in front let through (times its own opacity).
+    pub(crate) share: f64,
+    /// Own opacity, once asked for; none = opaque or not yet asked.
+    pub(crate) opacity: Option<f64>,
+}
+
+/// An interval of a line in which no face begins or ends: where veils lie one behind the other.
+#[derive(Clone, Copy, Debug)]
+struct Stack {
+    area: f64,
+    /// Range of veils in `order`, from the front.
+    veils: (u32, u32),
+    opaque: Option<u32>,
+}
+
+/// A share of light below which what lies behind further veils is left out (the sum of shares of a pixel
+/// then lacks up to this, as if background showed). An eighth of the step of an 8-bit display at white.
+pub(crate) const NEGLIGIBLE: f64 = 1.0 / 2048.0;
+
+/// What is known of the pixel so far. Emptied by [`Pixel::clear`], memory kept.
+#[derive(Default)]
+pub(crate) struct Pixel {
+    pub(crate) covers: Vec<Cover>,
+    stacks: Vec<Stack>,
+    order: Vec<u32>,
+    cuts: Vec<f64>,
+}
+
+impl Pixel {
+    pub(crate) fn clear(&mut self) {
+        self.covers.clear();
+        self.stacks.clear();
+        self.order.clear();
+    }
+
+    /// Adds the interval \[l, r\] of an opaque span. `merge` = into what is known of its face.
+    pub(crate) fn opaque(&mut self, face: u32, l: f64, r: f64, y: f64, weight: f64, merge: bool) {
+        let area = (r - l) * weight;
+        let index = self.cover(face, 0.5 * (l + r), y, area, merge);
+        self.covers[index].share += area;
+    }
+
+    fn cover(&mut self, face: u32, x: f64, y: f64, area: f64, merge: bool) -> usize {
+        let known = if merge { self.covers.iter().rposition(|cover| cover.face == face) } else { None };
+        let index = known.unwrap_or_else(|| {
+            self.covers.push(Cover { face, area: 0.0, moment: [0.0; 2], share: 0.0, opacity: None });
+            self.covers.len() - 1
+        });
+        let cover = &mut self.covers[index];
+        cover.area += area;
+        cover.moment[0] += area * x;
+        cover.moment[1] += area * y;
+        index
+    }
+
+    /// Adds what a line shows of \[left, right\] where veils are among it.
+    pub(crate) fn layered(
+        &mut self,
+        opaque: &[Segment],
+        veils: &[Segment],
+        (left, right): (f64, f64),
+        (y, weight): (f64, f64),
+        merge: bool,
+    ) {
+        self.cuts.clear();
+        self.cuts.extend([left, right]);
+        let ends = opaque.iter().chain(veils).flat_map(|s| [s.x0, s.x1]);
+        self.cuts.extend(ends.filter(|&x| left < x && x < right));
+        self.cuts.sort_unstable_by(f64::total_cmp);
+        self.cuts.dedup();
+        let mut first = 0;
+        for i in 1..self.cuts.len() {
+            let (l, r) = (self.cuts[i - 1], self.cuts[i]);
+            let (middle, area) = (0.5 * (l + r), (r - l) * weight);
+            while first < opaque.len() && opaque[first].x1 <= l {
+                first += 1;
+            }
+            let behind = opaque.get(first).filter(|span| span.x0 <= l);
+            let begin = self.order.len();
+            let here = |veil: &&Segment| veil.x0 <= l && veil.x1 >= r;
+            // Indices of the line's veils first, of their covers once they are in order.
+            self.order.extend((0u32..).zip(veils).filter(|(_, veil)| here(veil)).map(|(i, _)| i));
+            self.order[begin..].sort_unstable_by(|&a, &b| {
+                let (a, b) = (&veils[a as usize], &veils[b as usize]);
+                b.nearness(middle).total_cmp(&a.nearness(middle)).then(a.face.cmp(&b.face))
+            });
+            for k in begin..self.order.len() {
+                let face = veils[self.order[k] as usize].face;
+                self.order[k] = self.cover(face, middle, y, area, true) as u32;
+            }
+            let opaque = behind.map(|span| self.cover(span.face, middle, y, area, merge) as u32);
+            let veils = (begin as u32, self.order.len() as u32);
+            self.stacks.push(Stack { area, veils, opaque });
+        }
+    }
+
+    /// Shares out what the veils leave, from the front; `opacity` is asked once for each veil that is
+    /// reached by light worth asking for.
+    pub(crate) fn share_out(&mut self, mut opacity: impl FnMut(&Cover) -> f64) {
+        for stack in &self.stacks {
+            let mut left = 1.0;
+            for &index in &self.order[stack.veils.0 as usize..stack.veils.1 as usize] {
+                let cover = &mut self.covers[index as usize];
+                let own = match cover.opacity {
+                    Some(own) => own,
+                    None => opacity(cover).clamp(0.0, 1.0),
+                };
+                cover.opacity = Some(own);
+                cover.share += stack.area * left * own;
+                left *= 1.0 - own;
+                if left < NEGLIGIBLE {
+                    break;
+                }
+            }
+            if left >= NEGLIGIBLE
+                && let Some(index) = stack.opaque
+            {
+                self.covers[index as usize].share += stack.area * left;
+            }
+        }
+    }
+}
