@@ -8,6 +8,7 @@
 
 mod error;
 mod material;
+pub mod photometry;
 mod scene;
 mod sun;
 
