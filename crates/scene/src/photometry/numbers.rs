@@ -33,12 +33,13 @@ impl<'a> Numbers<'a> {
     pub(super) fn word(&mut self) -> Option<&'a str> {
         let comma = self.comma;
         let between = |c: char| c.is_whitespace() || (c == ',' && comma == Comma::Separates);
-        let start = self.rest.find(|c| !between(c)).unwrap_or(self.rest.len());
+        // At the end the line stays that of the last word, where a reader would look.
+        let start = self.rest.find(|c| !between(c))?;
         self.line += self.rest[..start].bytes().filter(|&byte| byte == b'\n').count();
         let word = &self.rest[start..];
         let word = &word[..word.find(between).unwrap_or(word.len())];
         self.rest = &self.rest[start + word.len()..];
-        (!word.is_empty()).then_some(word)
+        Some(word)
     }
 
     /// The next number, finite; `what` names it in the message.
