@@ -1,0 +1,277 @@
+//! The questions that are asked of a world: what is nearest, and is anything in the way?
+
+use glam::{DVec2, DVec3};
+use light::{Geometry, Hit, Mesh, Nearest, Occlude, Ray, Spectrum, rounding::UNIT};
+
+use crate::{
+    lanes::Lanes,
+    shot::Shot,
+    tree::{Faces, Name},
+    triangle::{Crossing, candidates, cross},
+    walk::{Visit, walk},
+    world::World,
+};
+
+/// A triangle on the way of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Met {
+    /// Distance along the ray \[m\].
+    pub(crate) t: f64,
+    /// Index into [`Geometry::instances`].
+    pub(crate) instance: u32,
+    /// Index within the mesh.
+    pub(crate) triangle: u32,
+    /// Weights of the second and third corner.
+    pub(crate) weights: DVec2,
+    /// Whether the mesh has an opacity of its own.
+    pub(crate) alpha: bool,
+}
+
+impl Met {
+    /// What makes an order of all triangles on a ray, equal distances included.
+    pub(crate) fn key(&self) -> (f64, u32, u32) {
+        (self.t, self.instance, self.triangle)
+    }
+}
+
+/// Opacity of a mesh's triangle at the weights of its second and third corner; 1 for a solid one.
+pub(crate) fn opacity(mesh: &Mesh, triangle: u32, weights: DVec2) -> f32 {
+    let Some(opacity) = &mesh.opacity else { return 1.0 };
+    let [a, b, c] = mesh.triangles[triangle as usize].map(|i| i as usize);
+    let uv = match mesh.uvs.is_empty() {
+        true => DVec2::ZERO,
+        false => {
+            let [a, b, c] = [a, b, c].map(|i| mesh.uvs[i].as_dvec2());
+            a + (b - a) * weights.x + (c - a) * weights.y
+        }
+    };
+    opacity.at(uv.as_vec2(), 0.0)
+}
+
+/// Takes the triangles that a ray meets, in no particular order.
+pub(crate) trait Ask {
+    /// One triangle within the ray's ends. `reach`, how far anything is still of interest, may be lowered.
+    /// True ends the search.
+    fn meet(&mut self, met: Met, geometry: &Geometry, reach: &mut f32) -> bool;
+}
+
+/// The least f32 that is no less than `t`.
+fn rounded_up(t: f64) -> f32 {
+    let near = t as f32;
+    if f64::from(near) < t { near.next_up() } else { near }
+}
+
+impl World {
+    /// Reports the triangles that `origin + t direction`, 0 < t < `length`, meets; none nearer than `floor` need
+    /// be reported. True when `ask` ended it.
+    pub(crate) fn ask(&self, line: (DVec3, DVec3), floor: f32, length: f32, ask: &mut impl Ask) -> bool {
+        let (origin, direction) = line;
+        let mut within = Within { world: self, instance: None, faces: &self.standing, length, ask };
+        let Some(shot) = Shot::new(origin, direction, self.standing.tree.reach) else { return false };
+        let reach = match within.walk(shot, floor, length) {
+            Some(reach) => reach,
+            None => return true,
+        };
+        let Some(shot) = Shot::new(origin, direction, self.tops.reach) else { return false };
+        let mut through = Through { world: self, line, floor, length, ask };
+        walk(&self.tops, &shot, floor, reach, &mut through)
+    }
+}
+
+/// Looks at the triangles of one hierarchy.
+struct Within<'a, A> {
+    world: &'a World,
+    /// Which placement, or none for what stands in the world's own coordinates.
+    instance: Option<u32>,
+    faces: &'a Faces,
+    length: f32,
+    ask: &'a mut A,
+}
+
+impl<A: Ask> Within<'_, A> {
+    /// How far anything is of interest afterwards; none when the search is over.
+    fn walk(&mut self, shot: Shot, floor: f32, reach: f32) -> Option<f32> {
+        let mut looking = Looking { within: self, shot: &shot, reach };
+        let tree = &looking.within.faces.tree;
+        match walk(tree, &shot, floor, reach, &mut looking) {
+            true => None,
+            false => Some(looking.reach),
+        }
+    }
+
+    /// Where the line crosses, if it does so between the ray's ends.
+    ///
+    /// Corners in world coordinates have been rounded to f32 (by up to u of each coordinate), and that moves
+    /// the plane by up to u · `sway` / |normal|. Where an end of the ray is that close to the plane, the triangle
+    /// itself decides, in f64: a ray that has left a surface ([`light::Place::leave`]) is beyond it, never before.
+    fn within_ends(&self, crossing: &Crossing, shot: &Shot, name: Name) -> Option<f64> {
+        let length = f64::from(self.length);
+        let mut t = crossing.t;
+        if self.instance.is_none() {
+            let start = crossing.normal.dot(crossing.corner);
+            let speed = crossing.normal.dot(shot.direction);
+            // 1 % more for the rounding of this very bound.
+            let doubt = 1.01 * f64::from(UNIT) * crossing.sway;
+            let doubtful =
+                start.abs() <= doubt || (length.is_finite() && (start - speed * length).abs() <= doubt);
+            if doubtful {
+                let exact = self.world.geometry.triangle(name.instance, name.triangle);
+                let normal = exact.cross();
+                let exact = normal.dot(exact.0[0] - shot.origin) / normal.dot(shot.direction);
+                // A ray within the plane: the crossing of the rounded triangle is as good as any.
+                t = if exact.is_finite() { exact } else { t };
+            }
+        }
+        (t > 0.0 && t < length).then_some(t)
+    }
+}
+
+/// A walk through one hierarchy.
+struct Looking<'a, 'b, A> {
+    within: &'b mut Within<'a, A>,
+    shot: &'b Shot,
+    reach: f32,
+}
+
+impl<A: Ask> Visit for Looking<'_, '_, A> {
+    #[inline(always)]
+    fn leaf<L: Lanes>(&mut self, leaf: u32, reach: &mut f32) -> bool {
+        let packet = &self.within.faces.packets[leaf as usize];
+        let mut mask = candidates::<L>(packet, self.shot);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let Some(crossing) = cross(packet, lane, self.shot) else { continue };
+            let name = self.within.faces.names[leaf as usize * 8 + lane];
+            let Some(t) = self.within.within_ends(&crossing, self.shot, name) else { continue };
+            let met = Met {
+                t,
+                instance: self.within.instance.unwrap_or(name.instance),
+                triangle: name.triangle,
+                weights: DVec2::from(crossing.weights),
+                alpha: name.alpha,
+            };
+            let over = self.within.ask.meet(met, &self.within.world.geometry, reach);
+            self.reach = *reach;
+            if over {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// A walk through the placements.
+struct Through<'a, A> {
+    world: &'a World,
+    line: (DVec3, DVec3),
+    floor: f32,
+    length: f32,
+    ask: &'a mut A,
+}
+
+impl<A: Ask> Visit for Through<'_, A> {
+    fn leaf<L: Lanes>(&mut self, leaf: u32, reach: &mut f32) -> bool {
+        let placement = &self.world.placements[leaf as usize];
+        let faces = &self.world.models[placement.model as usize];
+        let (origin, direction) = self.line;
+        let origin = placement.model_from_world.transform_point3(origin);
+        let direction = placement.model_from_world.transform_vector3(direction);
+        let Some(shot) = Shot::new(origin, direction, faces.tree.reach) else { return false };
+        let instance = Some(placement.instance);
+        let mut within = Within { world: self.world, instance, faces, length: self.length, ask: self.ask };
+        match within.walk(shot, self.floor, *reach) {
+            Some(left) => {
+                *reach = left;
+                false
+            }
+            None => true,
+        }
+    }
+}
+
+/// The nearest triangle after some place on the ray.
+pub(crate) struct First {
+    /// Only what comes after this in the order of [`Met::key`].
+    pub(crate) after: (f64, u32, u32),
+    /// Faces with an opacity of their own below this are passed.
+    pub(crate) least: f32,
+    pub(crate) found: Option<Met>,
+}
+
+impl First {
+    /// From the start of the ray, where faces are there if their opacity is at least `least`.
+    pub(crate) fn new(least: f32) -> Self {
+        Self { after: (0.0, 0, 0), least, found: None }
+    }
+}
+
+impl Ask for First {
+    #[inline(always)]
+    fn meet(&mut self, met: Met, geometry: &Geometry, reach: &mut f32) -> bool {
+        let first = self.found.is_none_or(|found| met.key() < found.key());
+        if !first || met.key() <= self.after {
+            return false;
+        }
+        if met.alpha && self.least > 0.0 {
+            let mesh = &geometry.meshes[geometry.instances[met.instance as usize].mesh as usize];
+            if opacity(mesh, met.triangle, met.weights) < self.least {
+                return false;
+            }
+        }
+        self.found = Some(met);
+        *reach = reach.min(rounded_up(met.t));
+        false
+    }
+}
+
+/// The share of light that is let through.
+pub(crate) struct Shadow {
+    /// Of what has been met so far; f64, so that the order of the product does not show in f32.
+    pub(crate) through: f64,
+}
+
+impl Ask for Shadow {
+    #[inline(always)]
+    fn meet(&mut self, met: Met, geometry: &Geometry, _: &mut f32) -> bool {
+        if met.alpha {
+            let mesh = &geometry.meshes[geometry.instances[met.instance as usize].mesh as usize];
+            self.through *= 1.0 - f64::from(opacity(mesh, met.triangle, met.weights));
+        } else {
+            self.through = 0.0;
+        }
+        self.through == 0.0
+    }
+}
+
+/// A ray's line in f64.
+pub(crate) fn line(ray: &Ray) -> (DVec3, DVec3) {
+    (ray.origin.as_dvec3(), ray.direction.as_dvec3())
+}
+
+/// The weights at which `line` meets the very triangle, where they agree with those that f32 has found
+/// (`met.weights`); else those: a triangle seen edge-on leaves the line's crossing undecided.
+pub(crate) fn weights(geometry: &Geometry, met: &Met, line: (DVec3, DVec3)) -> DVec2 {
+    let exact = geometry.triangle(met.instance, met.triangle).meet(line.0, line.1);
+    // Two corners' worth of doubt in either weight: anything nearer is better than the f32 weights.
+    let near = |at: &DVec2| at.min_element() >= -1e-2 && at.element_sum() <= 1.01;
+    exact.filter(near).unwrap_or(met.weights)
+}
+
+impl Nearest for World {
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut first = First::new(0.5);
+        self.ask(line(ray), 0.0, ray.length, &mut first);
+        let met = first.found?;
+        let at = weights(&self.geometry, &met, line(ray));
+        Some(self.geometry.hit(met.instance, met.triangle, at, ray, 0.0))
+    }
+}
+
+impl Occlude for World {
+    fn transmittance(&self, segment: &Ray) -> Spectrum {
+        let mut through = Shadow { through: 1.0 };
+        self.ask(line(segment), 0.0, segment.length, &mut through);
+        Spectrum::splat(through.through as f32)
+    }
+}
