@@ -65,8 +65,8 @@ impl Grid {
     /// The first line whose y is at least `y`, clamped to 0..=lines. `y` may be any finite number.
     pub(crate) fn first_at_or_below(&self, y: f64) -> u32 {
         let lines = self.lines();
-        // A float to integer cast saturates; the guess is off by one line at most, then exact.
-        let mut line = ((y * f64::from(self.strips)).floor() as u32).min(lines);
+        // The cast saturates and cuts off; the guess is off by one line at most, then exact.
+        let mut line = ((y * f64::from(self.strips)) as u32).min(lines);
         while line > 0 && self.y(line - 1) >= y {
             line -= 1;
         }
