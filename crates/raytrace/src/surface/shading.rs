@@ -1,0 +1,206 @@
+//! From what arrives to what leaves: the shading of a [`Surface`].
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::Vec3;
+use light::{Arrival, Hit, Place, Shade, Spectrum, Surroundings};
+
+use super::albedo::{Albedo, Fraction};
+use super::finish::Surface;
+use super::lobe::{lobe, width};
+use super::normals::{facing, shading_normal, terminator};
+
+/// Roughness up to which the specular share of extended light is that of the mirror ray alone.
+const ALL_MIRROR: f32 = 0.25;
+/// Roughness from which no mirror ray is sent.
+const NO_MIRROR: f32 = 0.4;
+
+/// Luminance of linear sRGB (IEC 61966-2-1).
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+/// A surface at one hit, its textures read.
+struct Local<'a> {
+    normal: Vec3,
+    out: Vec3,
+    face: Vec3,
+    /// cos between `normal` and `face`.
+    agreement: f32,
+    roughness: f32,
+    at: Fraction,
+    ior: f32,
+    /// Share of the area that is metal.
+    metallic: f32,
+    /// Head-on reflectance of the metal.
+    metal: Spectrum,
+    /// Reflectance below the boundary of the dielectric, share of the area and of transmission included.
+    body: Spectrum,
+    boundary: &'a Albedo,
+    /// Factor on (1 − E(i)) for a matt scattering of reflectance 1 below the boundary: (1 − E(o))/(1 − Ē).
+    below: f32,
+    /// Factor on (1 − A(i)) for light passed among the metal's facets, per band: F_ms (1 − A(o))/(1 − Ā).
+    among: Spectrum,
+}
+
+impl<'a> Local<'a> {
+    fn new(surface: &'a Surface, hit: &Hit) -> Self {
+        let finish = &surface.finish;
+        let normal = shading_normal(hit, finish.normal_map.as_ref());
+        let (metallic, roughness) = finish.metal_and_roughness_at(hit).into();
+        let colour = Spectrum::reflectance(finish.base_at(hit)).map(|band| band.clamp(0.0, 1.0));
+        let at = Fraction::of_roughness(roughness);
+        let cos_out = normal.dot(hit.toward_eye);
+        let boundary = &*surface.boundary;
+        let matt = 1.0 - metallic;
+        Self {
+            normal,
+            out: hit.toward_eye,
+            face: hit.place.normal,
+            agreement: normal.dot(hit.place.normal),
+            roughness,
+            at,
+            ior: finish.ior,
+            metallic,
+            metal: colour,
+            body: colour * (matt * (1.0 - finish.diffuse_transmission)),
+            boundary,
+            below: shared(boundary.at(cos_out, at), boundary.mean(at)),
+            among: if metallic > 0.0 {
+                passed_among(colour, Albedo::white().mean(at))
+                    * (metallic * shared(Albedo::white().at(cos_out, at), Albedo::white().mean(at)))
+            } else {
+                Spectrum::ZERO
+            },
+        }
+    }
+
+    /// Share of even light all around that is mirrored to the eye, E(o).
+    fn specular_share(&self) -> Spectrum {
+        let cos = self.normal.dot(self.out);
+        let mut share = Spectrum::splat((1.0 - self.metallic) * self.boundary.at(cos, self.at));
+        if self.metallic > 0.0 {
+            let (white, rise) = (Albedo::white().at(cos, self.at), Albedo::rise().at(cos, self.at));
+            share += (self.metal * (white - rise) + Spectrum::splat(rise)) * self.metallic;
+        }
+        share
+    }
+
+    /// Share of even light all around that is scattered to the eye: ∫ of the matt parts, (1 − Ē) back again.
+    fn diffuse_share(&self) -> Spectrum {
+        let below = self.below * (1.0 - self.boundary.mean(self.at));
+        self.body * below + self.among * (1.0 - Albedo::white().mean(self.at))
+    }
+
+    /// f cos for a beam from `toward` \[1/sr\]: what of irradiance facing it leaves towards the eye.
+    fn reflect(&self, toward: Vec3) -> Spectrum {
+        let cos = toward.dot(self.normal);
+        let fade = terminator(toward.dot(self.face), cos, self.agreement);
+        if fade <= 0.0 {
+            return Spectrum::ZERO;
+        }
+        let mut f = self.body * (FRAC_1_PI * self.below * (1.0 - self.boundary.at(cos, self.at)));
+        let lobe = lobe(self.normal, self.out, toward, width(self.roughness));
+        let glass = light::fresnel(f64::from(self.ior), f64::from(lobe.cos_facet)) as f32;
+        f += Spectrum::splat((1.0 - self.metallic) * glass * lobe.density);
+        if self.metallic > 0.0 {
+            f += self.among * (FRAC_1_PI * (1.0 - Albedo::white().at(cos, self.at)));
+            let rise = (1.0 - lobe.cos_facet).powi(5);
+            f += (self.metal * (1.0 - rise) + Spectrum::splat(rise)) * (self.metallic * lobe.density);
+        }
+        f * (cos * fade)
+    }
+
+    /// The same for a beam that comes through from behind, per reflectance of the body: matt.
+    fn pass(&self, toward: Vec3) -> f32 {
+        let cos = -toward.dot(self.normal);
+        let fade = terminator(-toward.dot(self.face), cos, self.agreement);
+        FRAC_1_PI * self.below * (1.0 - self.boundary.at(cos.max(0.0), self.at)) * cos.max(0.0) * fade
+    }
+}
+
+/// (1 − E)/(1 − Ē); 0 where nothing gets below at all.
+fn shared(albedo: f32, mean: f32) -> f32 {
+    if mean < 1.0 { ((1.0 - albedo) / (1.0 - mean)).max(0.0) } else { 0.0 }
+}
+
+/// Share of light that leaves a metal after more than one facet (Kulla and Conty 2017).
+///
+///   F_ms = F̄ ² Ā / (1 − F̄ (1 − Ā)),   F̄ = (20 F₀ + 1)/21
+fn passed_among(head_on: Spectrum, mean: f32) -> Spectrum {
+    head_on.map(|f0| {
+        let f = (20.0 * f0 + 1.0) / 21.0;
+        f * f * mean / (1.0 - f * (1.0 - mean)).max(f32::MIN_POSITIVE)
+    })
+}
+
+/// Share of the mirror ray in the specular reflection of extended light, by roughness.
+fn mirrored(roughness: f32) -> f32 {
+    let t = ((NO_MIRROR - roughness) / (NO_MIRROR - ALL_MIRROR)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Mirror direction of the eye at the normal for shading, kept above the true face.
+fn mirror_direction(local: &Local) -> Vec3 {
+    let mirror = local.normal * (2.0 * local.normal.dot(local.out)) - local.out;
+    // A degree above the face, where the normal for shading would send it into the surface.
+    let lift = 0.02 - mirror.dot(local.face);
+    if lift > 0.0 { (mirror + local.face * lift).normalize() } else { mirror }
+}
+
+impl Surface {
+    /// Radiance that comes through from light behind: leaves against the sun.
+    fn through(&self, local: &Local, place: &Place, around: &dyn Surroundings) -> Spectrum {
+        let share = self.finish.diffuse_transmission * (1.0 - local.metallic);
+        if share <= 0.0 {
+            return Spectrum::ZERO;
+        }
+        let even = FRAC_1_PI * local.below * (1.0 - local.boundary.mean(local.at));
+        let mut light = Spectrum::ZERO;
+        around.arrivals(&place.flipped(), &mut |arrival| match arrival {
+            Arrival::Beam { toward, irradiance } => light += irradiance * local.pass(toward),
+            Arrival::Field { irradiance } => light += irradiance * even,
+        });
+        let colour =
+            Spectrum::reflectance(self.finish.diffuse_transmission_colour.clamp(Vec3::ZERO, Vec3::ONE));
+        light * colour.map(|band| band.clamp(0.0, 1.0)) * share
+    }
+
+    /// Emitted radiance.
+    fn emitted(&self, hit: &Hit) -> Spectrum {
+        let rgb = self.finish.emission_at(hit);
+        let largest = rgb.max_element();
+        if largest > 0.0 && largest.is_finite() {
+            Spectrum::light_of_colour(rgb / largest) * rgb.dot(LUMINANCE)
+        } else {
+            Spectrum::ZERO
+        }
+    }
+}
+
+impl Shade for Surface {
+    fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
+        let local = Local::new(self, hit);
+        let place = facing(&hit.place, local.normal);
+        let mut field = Spectrum::ZERO;
+        let mut radiance = self.emitted(hit);
+        around.arrivals(&place, &mut |arrival| match arrival {
+            Arrival::Beam { toward, irradiance } => {
+                radiance = irradiance.mul_add(local.reflect(toward), radiance);
+            }
+            Arrival::Field { irradiance } => field += irradiance,
+        });
+        let specular = local.specular_share();
+        let mirror = mirrored(local.roughness);
+        let even = local.diffuse_share() + specular * (1.0 - mirror);
+        radiance += field * even * FRAC_1_PI;
+        let largest = specular.max() * mirror;
+        if largest > 0.0 {
+            let ray = hit.place.leave(mirror_direction(&local), f32::INFINITY);
+            radiance += around.radiance(&ray, hit.path.then(largest.min(1.0))) * specular * mirror;
+        }
+        radiance + self.through(&local, &place, around)
+    }
+}
+
+#[cfg(test)]
+#[path = "shading_tests.rs"]
+mod tests;
