@@ -21,6 +21,7 @@
 pub mod bands;
 pub mod check;
 pub mod colour;
+pub mod data;
 mod film;
 mod hit;
 mod illuminate;
