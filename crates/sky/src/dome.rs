@@ -7,7 +7,7 @@ use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use crate::open_sky::OpenSky;
 use crate::pattern::lifted;
-use crate::sampling::{cosine_hemisphere, lattice, shift, transmit};
+use crate::sampling::{Frame, lattice, shift, transmit};
 use crate::{Pattern, diffuse_illuminance};
 
 /// Keeps the sky's random choices apart from those of other sources.
@@ -88,6 +88,8 @@ impl Description {
 pub struct Dome {
     pattern: Pattern,
     toward_sun: Vec3,
+    /// The pattern's shape at the zenith, inverted.
+    per_zenith: f32,
     zenith: Spectrum,
     ground: Spectrum,
     ground_height: f32,
@@ -96,7 +98,7 @@ pub struct Dome {
 }
 
 impl Dome {
-    /// The sky that `description` describes. Takes about 30 ms: the table of open planes is made here.
+    /// The sky that `description` describes. Takes some 50 ms: the table of open planes is made here.
     pub fn new(description: &Description) -> Self {
         let Description { pattern, toward_sun, samples, .. } = *description;
         let altitude = f64::from(toward_sun.y.clamp(-1.0, 1.0)).asin().to_degrees();
@@ -111,6 +113,7 @@ impl Dome {
         Self {
             pattern,
             toward_sun: lifted(toward_sun),
+            per_zenith: 1.0 / pattern.shape(Vec3::Y, lifted(toward_sun)),
             zenith: horizontal * (1.0 / open.horizontal()),
             ground: (horizontal + description.sun_horizontal)
                 * (description.albedo.clamp(0.0, 1.0) * FRAC_1_PI),
@@ -140,6 +143,11 @@ impl Dome {
         self.ground * (PI * (0.5 - 0.5 * normal.y).clamp(0.0, 1.0))
     }
 
+    /// Luminance along a direction that is not below the horizon, per that at the zenith.
+    fn relative(&self, direction: Vec3) -> f32 {
+        self.pattern.shape(direction, self.toward_sun) * self.per_zenith
+    }
+
     /// The ray from `place` to where light comes from: the sky, or the ground.
     fn ray(&self, place: &Place, direction: Vec3) -> Ray {
         let fall = place.position.y - self.ground_height;
@@ -150,15 +158,15 @@ impl Dome {
     /// Share of the sky's and of the ground's light that arrives at `place`.
     fn visible(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
         let offset = shift(place.seed, PURPOSE);
+        let frame = Frame::new(place.normal);
         let black = [self.zenith.is_zero(), self.ground.is_zero()];
         let rays = (0..self.samples).filter_map(|i| {
-            let direction = cosine_hemisphere(place.normal, lattice(i, self.samples, offset));
+            let direction = frame.cosine_hemisphere(lattice(i, self.samples, offset));
             let part = usize::from(direction.y < 0.0);
             if black[part] {
                 return None;
             }
-            let weight =
-                if part == 0 { self.pattern.relative_luminance(direction, self.toward_sun) } else { 1.0 };
+            let weight = if part == 0 { self.relative(direction) } else { 1.0 };
             Some((self.ray(place, direction), (part, weight)))
         });
         let (mut through, mut open) = ([Spectrum::ZERO; 2], [0.0f32; 2]);
@@ -191,11 +199,7 @@ impl Illuminate for Dome {
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {
-        if ray.direction.y < 0.0 {
-            self.ground
-        } else {
-            self.zenith * self.pattern.relative_luminance(ray.direction, self.toward_sun)
-        }
+        if ray.direction.y < 0.0 { self.ground } else { self.zenith * self.relative(ray.direction) }
     }
 }
 

@@ -128,8 +128,8 @@ mod tests {
         assert!((uniform.horizontal() / PI - 1.0).abs() <= rule);
         let overcast = OpenSky::new(Pattern::Overcast, Vec3::Y);
         assert!((overcast.horizontal() / (7.0 * PI / 9.0) - 1.0).abs() <= rule);
-        // A vertical plane under the overcast sky receives 0.396 of it: (π/2 · ½ + 8/9... )/π in closed form:
-        // (1/3)(π/2) + (2/3)(2/3) = π/6 + 4/9 against 7π/9.
+        // A vertical plane under the overcast sky receives 0.396 of it: (1/3)(π/2) + (2/3)(2/3) = π/6 + 4/9
+        // against 7π/9.
         let share = overcast.on_plane(Vec3::X) / overcast.horizontal();
         let exact = (PI / 6.0 + 4.0 / 9.0) / (7.0 * PI / 9.0);
         assert!((exact - 0.396).abs() < 5e-4, "the figure of the textbooks");

@@ -49,19 +49,19 @@ impl Pattern {
     ///
     /// `toward_sun` is a unit vector; a sun below the horizon counts as on it.
     pub fn relative_luminance(self, direction: Vec3, toward_sun: Vec3) -> f32 {
-        let cos_zenith = direction.y;
-        if cos_zenith < 0.0 {
+        if direction.y < 0.0 {
             return 0.0;
         }
+        let sun = lifted(toward_sun);
+        self.shape(direction, sun) / self.shape(Vec3::Y, sun)
+    }
+
+    /// The same but for a factor that depends on the sun alone; direction and sun are not below the horizon.
+    pub(crate) fn shape(self, direction: Vec3, sun: Vec3) -> f32 {
         match self {
             Self::Uniform => 1.0,
-            Self::Overcast => (1.0 + 2.0 * cos_zenith) / 3.0,
-            Self::Clear => {
-                let sun = lifted(toward_sun);
-                let gradation = |cos: f32| 1.0 - (-0.32 / cos).exp();
-                indicatrix(direction, sun) * gradation(cos_zenith)
-                    / (indicatrix(Vec3::Y, sun) * gradation(1.0))
-            }
+            Self::Overcast => (1.0 + 2.0 * direction.y) / 3.0,
+            Self::Clear => indicatrix(direction, sun) * (1.0 - (-0.32 / direction.y).exp()),
         }
     }
 }

@@ -38,14 +38,29 @@ pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
     [radius * cos, radius * sin]
 }
 
-/// The direction around unit `normal` that belongs to a point of the unit square: density cos θ/π.
-///
-/// A point of the unit disc, raised to the hemisphere above it (Malley).
-pub(crate) fn cosine_hemisphere(normal: Vec3, at: [f32; 2]) -> Vec3 {
-    let [x, y] = disc(at);
-    let (tangent, bitangent) = normal.any_orthonormal_pair();
-    // at[0] ≤ 1 − 2⁻²⁴, so that the height is at least 2⁻¹²: never on the plane itself.
-    (tangent * x + bitangent * y + normal * (1.0 - at[0]).sqrt()).normalize()
+/// Two directions across a normal, and itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    across: Vec3,
+    along: Vec3,
+    normal: Vec3,
+}
+
+impl Frame {
+    /// Around a unit normal.
+    pub(crate) fn new(normal: Vec3) -> Self {
+        let (across, along) = normal.any_orthonormal_pair();
+        Self { across, along, normal }
+    }
+
+    /// The direction around the normal that belongs to a point of the unit square: density cos θ/π.
+    ///
+    /// A point of the unit disc, raised to the hemisphere above it (Malley).
+    pub(crate) fn cosine_hemisphere(&self, at: [f32; 2]) -> Vec3 {
+        let [x, y] = disc(at);
+        // at[0] ≤ 1 − 2⁻²⁴, so that the height is at least 2⁻¹²: never on the plane itself.
+        (self.across * x + self.along * y + self.normal * (1.0 - at[0]).sqrt()).normalize()
+    }
 }
 
 /// Rays asked for in one call to an occluder.
@@ -100,7 +115,7 @@ mod tests {
             let count = 256;
             let cosines = (0..count).map(|i| {
                 let at = lattice(i, count, shift(9, 2));
-                normal.dot(cosine_hemisphere(normal, at))
+                normal.dot(Frame::new(normal).cosine_hemisphere(at))
             });
             let mean = cosines.inspect(|&cos| assert!(cos > 0.0)).sum::<f32>() / count as f32;
             // E[cos] = 2/3 under density cos/π. cos = √(1 − u) has variation 1; one point per column errs by
