@@ -1,7 +1,7 @@
 //! What a band means: eight smooth windows of wavelength, fitted to the light of landscapes.
 //!
-//! Light travels here as one number per band, and bands multiply: light × reflectance × transmittance. Two choices make
-//! that good enough to stand in for a whole spectrum:
+//! Light travels here as one number per band, and bands multiply: light × reflectance × transmittance. Two
+//! choices make that good enough to stand in for a whole spectrum:
 //!
 //! 1. *Projection.* Band b of any spectral quantity s (light, reflectance, coefficient) is its mean under a kernel,
 //!    s_b = Σ_λ K_b(λ) s(λ) / Σ_λ K_b(λ) with K_b(λ) = (1 − u²)², u = (λ − centre_b) / half-width_b, |u| < 1, summed in
@@ -12,13 +12,13 @@
 //! Centres, half-widths and weights come from `docs/bands/fit.py`: an evolution strategy over the kernels, and for each
 //! candidate the best weights by non-negative least squares in CIEDE2000 linearised around each colour, taken to the
 //! sixth power (so that the worst cases count), luminance errors of 2 % counting as one unit. It trains on CIE
-//! daylights of 4000 to 25000 K, sun and blue sky through clear and hazy air, black bodies of 1800 to 9000 K, white LEDs, leaves by
-//! PROSPECT-D, smooth surfaces and the ColorChecker, up to 12 m of clear and yellow water. Two things are exact:
+//! daylights of 4000 to 25000 K, sun and blue sky through clear and hazy air, black bodies of 1800 to 9000 K, white
+//! LEDs, leaves by PROSPECT-D, smooth surfaces and the ColorChecker, up to 12 m of clear and yellow water. Two things are exact:
 //! constant spectra (Σ w = ∫ of the colour matching function) and the white of sRGB under CIE D65.
 //!
 //! **Where it is wrong.** `tests/spectra` prints the errors against 5 nm. Lamps of spectral lines (fluorescent, sodium,
-//! mercury) fall between bands: give their colour (`light_of_colour`, `light_of_temperature`) rather than their
-//! spectrum. A coefficient that varies greatly within a band (water beyond 600 nm over tens of metres) is a mean too.
+//! mercury) fall between bands, up to 16 units: [`Spectrum::light_of_table`] gives them their own colour and luminance,
+//! though not their rendering of surfaces. A coefficient that varies greatly within a band (water beyond 600 nm over tens of metres) is a mean too.
 
 use crate::Spectrum;
 use crate::data::{SAMPLES, wavelength};
@@ -90,13 +90,16 @@ impl Spectrum {
     /// A spectrum from a table of (wavelength \[nm\], value), rising in wavelength, linear in between,
     /// constant beyond its ends; zero for an empty table. It is asked every 5 nm: average a finer table first.
     pub fn from_table(table: &[(f64, f64)]) -> Self {
-        Self::from_fn(|nm| {
-            let after = table.partition_point(|row| row.0 <= nm);
-            match (after.checked_sub(1).and_then(|i| table.get(i)), table.get(after)) {
-                (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (nm - a.0) / (b.0 - a.0),
-                (Some(end), None) | (None, Some(end)) => end.1,
-                (None, None) => 0.0,
-            }
-        })
+        Self::from_fn(|nm| read(table, nm))
+    }
+}
+
+/// The value of `table` at `nm`, see [`Spectrum::from_table`].
+pub(crate) fn read(table: &[(f64, f64)], nm: f64) -> f64 {
+    let after = table.partition_point(|row| row.0 <= nm);
+    match (after.checked_sub(1).and_then(|i| table.get(i)), table.get(after)) {
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (nm - a.0) / (b.0 - a.0),
+        (Some(end), None) | (None, Some(end)) => end.1,
+        (None, None) => 0.0,
     }
 }

@@ -6,13 +6,14 @@
 use glam::{Mat3, Vec2, Vec3};
 
 use crate::Spectrum;
-use crate::bands::{BANDS, XYZ_WEIGHTS};
-use crate::data::{daylight, interpolate};
+use crate::bands::{BANDS, XYZ_WEIGHTS, read};
+use crate::data::observer::{X_BAR, Y_BAR, Z_BAR};
+use crate::data::{SAMPLES, STEP_NM, daylight, interpolate, wavelength};
 
 /// Luminous efficacy of radiation at 555 nm (540 THz) \[lm/W\], CIE 018:2019.
 pub const LUMENS_PER_WATT: f64 = 683.0;
 
-/// CIE illuminant D65 of luminance 1 cd/m² \[W m⁻² sr⁻¹ nm⁻¹\], by `docs/bands/fit.py`. Its colour is the white of sRGB.
+/// CIE illuminant D65 of luminance 1 cd/m² \[W m⁻² sr⁻¹ nm⁻¹\], by `docs/bands/fit.py`; the white of sRGB.
 pub const D65: Spectrum = Spectrum([
     1.397_244_6e-5,
     1.609_668_3e-5,
@@ -38,6 +39,9 @@ const PRIMARIES: [Spectrum; 3] = [
     Spectrum([0.0, 0.073_226_93, 0.697_333_34, 1.0, 0.912_980_1, 0.181_840_9, 0.0, 0.0]),
     Spectrum([1.0, 0.884_853_36, 0.302_666_66, 0.0, 0.039_997_1, 0.001_153_945_9, 0.0, 0.0]),
 ];
+
+/// x̄, ȳ, z̄.
+const OBSERVER: [&[f64; SAMPLES]; 3] = [&X_BAR, &Y_BAR, &Z_BAR];
 
 /// Linear sRGB of X, Y and Z: inverse of [`XYZ_FROM_SRGB`].
 const SRGB_FROM_XYZ: Mat3 = Mat3::from_cols(
@@ -113,6 +117,34 @@ impl Spectrum {
         if part == 1.0 { day } else { (planck(kelvin) * (1.0 - part) + day * part).of_luminance(1.0) }
     }
 
+    /// A light measured as a table of (wavelength \[nm\], power), read as [`Spectrum::from_table`] reads it, but with the
+    /// table's own luminance and colour, both summed in steps of 5 nm.
+    ///
+    /// The bands are multiplied by c₁ S_r + c₂ S_g + c₃ S_b, the mixture of smooth primaries that restores XYZ: near 1 for
+    /// smooth lights, a real correction for lamps of spectral lines. Where no such mixture exists (a laser), only
+    /// luminance is restored.
+    pub fn light_of_table(table: &[(f64, f64)]) -> Self {
+        let bands = Self::from_table(table);
+        let target = exact_xyz(table);
+        let mixed = Mat3::from_cols(
+            (bands * PRIMARIES[0]).xyz(),
+            (bands * PRIMARIES[1]).xyz(),
+            (bands * PRIMARIES[2]).xyz(),
+        );
+        // Scaled, so that the determinant of dim lamps does not underflow.
+        let scale = target.max_element();
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Self::ZERO;
+        }
+        let shares = (mixed * scale.recip()).inverse() * (target / scale);
+        let corrected = bands * mix_primaries(shares.to_array());
+        if corrected.is_finite() && corrected.0.iter().all(|&band| band >= 0.0) {
+            corrected
+        } else {
+            bands.of_luminance(target.y)
+        }
+    }
+
     /// The same spectrum scaled to `luminance`; zero stays zero.
     pub fn of_luminance(self, luminance: f32) -> Self {
         let own = self.luminance();
@@ -124,6 +156,14 @@ impl Spectrum {
 fn weigh(weights: &[f32; BANDS], spectrum: Spectrum) -> f32 {
     let sum: f32 = weights.iter().zip(spectrum.0).map(|(weight, band)| weight * band).sum();
     LUMENS_PER_WATT as f32 * sum
+}
+
+/// 683 lm/W · 5 nm · Σ s x̄, ȳ, z̄.
+fn exact_xyz(table: &[(f64, f64)]) -> Vec3 {
+    let sum = |bar: &[f64; SAMPLES]| -> f64 {
+        bar.iter().enumerate().map(|(i, bar)| bar * read(table, wavelength(i))).sum()
+    };
+    Vec3::from(OBSERVER.map(|bar| (LUMENS_PER_WATT * STEP_NM * sum(bar)) as f32))
 }
 
 /// `value` within \[0, 1\]; NaN becomes 0.

@@ -5,7 +5,10 @@ use keikan_light::Spectrum;
 use keikan_light::colour::{
     D65, TEMPERATURES, chromaticity, decode_srgb, encode_srgb, srgb_from_xyz, xyz_from_srgb,
 };
+use keikan_light::data::{SAMPLES, wavelength};
 use proptest::prelude::*;
+
+use crate::reference::xyz;
 
 /// Rounding of basis, weights and matrices: the basis is quantised to 2⁻²⁰ (two of its parts by half of that, the
 /// third by their sum: 2⁻²⁰), weights and D65 to f32 (2⁻²⁴), each of about 30 operations likewise; the inverse matrix amplifies by at
@@ -114,6 +117,29 @@ fn d65_is_the_daylight_of_6504_kelvin() {
     // The constant was computed in f64 and rounded; the function sums in f64 from a chromaticity in f32.
     let difference = Spectrum::light_of_temperature(6504.0) - D65;
     assert!(difference.map(f32::abs).max() <= 1e-5 * D65.max());
+}
+
+#[test]
+fn measured_lamps_keep_their_luminance_and_colour() {
+    // A lamp of lines on a faint continuum: mercury blue, terbium green, sodium, europium red.
+    let lines = [(435.0, 6.0), (545.0, 12.0), (590.0, 5.0), (610.0, 14.0)];
+    let value = |nm: f64| 1e-3 * (1.0 + lines.iter().find(|line| line.0 == nm).map_or(0.0, |line| line.1));
+    let samples = std::array::from_fn(|i| value(wavelength(i)));
+    let table: Vec<_> = (0..SAMPLES).map(|i| (wavelength(i), samples[i])).collect();
+    let (ours, exact) = (Spectrum::light_of_table(&table), xyz(&samples));
+    assert!(ours.0.iter().all(|&band| band >= 0.0));
+    for (ours, exact) in ours.xyz().to_array().into_iter().zip(exact) {
+        // Solving 3 × 3 in f32: rounding of about 40 operations times the matrix's condition, below 30 here.
+        assert!(
+            (f64::from(ours) / exact - 1.0).abs() < 30.0 * 40.0 * f64::from(f32::EPSILON) / 2.0,
+            "{ours} {exact}"
+        );
+    }
+    // A laser has no smooth correction, but its luminance; no light stays none.
+    let laser: Vec<_> = [(529.0, 0.0), (530.0, 1.0), (531.0, 0.0)].to_vec();
+    let expected = 683.0 * 5.0 * 0.862;
+    assert!((Spectrum::light_of_table(&laser).luminance() / expected - 1.0).abs() < 40.0 * f32::EPSILON);
+    assert_eq!(Spectrum::light_of_table(&[]), Spectrum::ZERO);
 }
 
 #[test]
