@@ -120,7 +120,7 @@ impl Finish {
 ///
 /// *Normals.* Light is weighed at the interpolated and mapped normal (kept within 60° of the face), asked
 /// for there as well, and light from behind the true face never counts. At the terminator of smooth-shaded
-/// faces it fades as in [`crate::surface`]'s shading; that factor alone is not reciprocal.
+/// faces it fades over the last degrees (Chiang, Li and Burley 2019); that factor alone is not reciprocal.
 ///
 /// ```
 /// use glam::{DVec3, Vec2, Vec3};
@@ -145,12 +145,18 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A surface of that finish. Numbers outside their ranges are brought inside.
+    /// A surface of that finish. Numbers outside their ranges are brought inside, NaN becomes the default.
     pub fn new(finish: Finish) -> Self {
-        let ior = if finish.ior.is_nan() { 1.5 } else { finish.ior.clamp(1.0, MOST_REFRACTIVE) };
-        let diffuse_transmission = finish.diffuse_transmission.clamp(0.0, 1.0);
-        let boundary = Albedo::dielectric(ior);
-        Self { finish: Finish { ior, diffuse_transmission, ..finish }, boundary }
+        let sound = |value: f32, default: f32| if value.is_nan() { default } else { value };
+        let ior = sound(finish.ior, 1.5).clamp(1.0, MOST_REFRACTIVE);
+        let finish = Finish {
+            metallic: sound(finish.metallic, 0.0),
+            roughness: sound(finish.roughness, 1.0),
+            ior,
+            diffuse_transmission: sound(finish.diffuse_transmission, 0.0).clamp(0.0, 1.0),
+            ..finish
+        };
+        Self { finish, boundary: Albedo::dielectric(ior) }
     }
 
     /// What it is made of.

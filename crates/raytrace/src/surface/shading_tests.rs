@@ -246,7 +246,8 @@ fn normal_maps_lean_with_the_image() {
 
 #[test]
 fn degenerate_hits_give_finite_light() {
-    let surface = Surface::new(Finish { roughness: 0.0, metallic: 0.5, ior: f32::NAN, ..Finish::default() });
+    let surface =
+        Surface::new(Finish { roughness: 0.0, metallic: f32::NAN, ior: f32::NAN, ..Finish::default() });
     for eye in [Vec3::X, direction(1e-7, 0.0), Vec3::Y] {
         for toward in [Vec3::X, Vec3::NEG_X, eye, -eye, Vec3::Y, direction(1e-7, PI)] {
             for normal in [Vec3::Y, Vec3::X, direction(0.1, 1.0)] {
