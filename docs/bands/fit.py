@@ -10,7 +10,7 @@ W P(D65) = white of sRGB (a white surface in daylight is white).
 
 Run as:
     python3 -m venv venv && venv/bin/pip install numpy scipy cma==4.5.0 colour-science==0.4.7 prosail==2.0.5
-    venv/bin/python docs/bands/fit.py            # minutes; prints constants and the error of each group
+    venv/bin/python docs/bands/fit.py            # a few minutes; prints constants and the error of each group
     venv/bin/python docs/bands/fit.py --tables   # prints the tables of crates/light/src/data
 """
 
@@ -64,8 +64,6 @@ def xyz_from_srgb():
 SRGB = xyz_from_srgb()
 WHITE = SRGB.sum(axis=1)
 
-
-# --- Lights, reflectances, waters -------------------------------------------------------------------------
 
 
 def planck(kelvin):
@@ -126,8 +124,6 @@ def random_bumps(rng):
         r += rng.uniform(0, 0.5) * np.exp(-(((NM - rng.uniform(380, 740)) / rng.uniform(40, 120)) ** 2))
     return np.clip(r, 0, 1)
 
-
-# --- Cases --------------------------------------------------------------------------------------------------
 
 
 def lab(xyz, white):
@@ -226,8 +222,6 @@ def cases(seed, count):
         these.add("leaf in water", pick(usual), random_leaf(rng)[0], WATER * rng.uniform(0, 10), weight=1.3)
     return these.finish()
 
-
-# --- The fit ------------------------------------------------------------------------------------------------
 
 
 def kernels(parameters):
