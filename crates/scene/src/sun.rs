@@ -35,7 +35,8 @@ impl Site {
     ///
     /// ```
     /// let sun = keikan_scene::Site::default().sun().unwrap();
-    /// assert!((sun.altitude - 61.7).abs() < 0.1 && (sun.azimuth - 104.8).abs() < 0.1);
+    /// // By hand: declination 23.44°, hour angle −25.7° (solar time 10:17).
+    /// assert!((sun.altitude - 64.7).abs() < 0.05 && (sun.azimuth - 111.8).abs() < 0.05);
     /// ```
     pub fn sun(&self) -> Option<Sun> {
         let refraction = standard_air(self.elevation)?;

@@ -1,0 +1,146 @@
+//! From files to a [`Scene`]: read, check, place, recentre.
+
+mod check;
+mod draft;
+mod eyes;
+mod framing;
+mod inline;
+mod lamps;
+mod materials;
+mod models;
+mod placement;
+mod punctual;
+mod recentre;
+mod settings;
+mod site;
+
+use std::io::Read;
+use std::path::Path;
+
+use crate::document::{Document, Spot};
+use crate::file::SceneFile;
+use crate::{Error, Scene, Sky, Warning};
+use draft::Draft;
+
+/// The longest scene file that is read \[bytes\].
+pub const MAX_BYTES: u64 = 256 << 20;
+
+/// Loads a scene file (`.toml`), or a model (`.glb`, `.gltf`) as a scene of its own.
+///
+/// A model stands at the default [`crate::Site`] under its sun (or the model's own directional light) and a
+/// clear sky; without a camera it is framed automatically.
+pub fn load(path: &Path) -> Result<Scene, Error> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    match extension.as_str() {
+        "glb" | "gltf" => model(path),
+        "toml" => {
+            let io = |source| Error::Io { path: path.to_path_buf(), source };
+            let mut bytes = Vec::new();
+            // One byte more than allowed tells a file that is too long.
+            std::fs::File::open(path).map_err(io)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
+            let wrong = |what: String| Error::File { path: path.to_path_buf(), place: String::new(), what };
+            if bytes.len() as u64 > MAX_BYTES {
+                return Err(wrong(format!("is longer than {} MiB", MAX_BYTES >> 20)));
+            }
+            let text = String::from_utf8(bytes).map_err(|error| {
+                wrong(format!("is not UTF-8 from byte {} on", error.utf8_error().valid_up_to()))
+            })?;
+            parse(&text, path.parent().unwrap_or(Path::new("")), path)
+        }
+        other => {
+            let what = format!("{other:?} is not a kind of scene file: .toml, .glb and .gltf are possible");
+            Err(Error::File { path: path.to_path_buf(), place: String::new(), what })
+        }
+    }
+}
+
+/// Reads a scene file from memory; `folder` is where the files that it names lie, `path_for_messages` what
+/// errors call it.
+///
+/// ```
+/// let text = r#"
+///     [[model]]
+///     box = { size = [1, 2, 1] }
+///     [[light]]
+///     position = [0, 4, 0]
+///     intensity = 100
+/// "#;
+/// let scene = keikan_scene::parse(text, "".as_ref(), "tower.toml".as_ref())?;
+/// assert_eq!(scene.geometry.triangle_count(), 12);
+/// assert_eq!(scene.lights[0].distribution.peak(), 100.0);
+/// # Ok::<(), keikan_scene::Error>(())
+/// ```
+pub fn parse(toml_text: &str, folder: &Path, path_for_messages: &Path) -> Result<Scene, Error> {
+    let text = toml_text.strip_prefix('\u{feff}').unwrap_or(toml_text);
+    let document = Document { text, path: path_for_messages.to_path_buf(), folder: folder.to_path_buf() };
+    let file: SceneFile = toml::from_str(text).map_err(|error| document.syntax(&error))?;
+    let root = document.root();
+    let mut draft = Draft { site: site::site(&root, file.site.as_ref())?, ..Draft::default() };
+    draft.sun = site::sun(&root, &file, &draft.site)?;
+    draft.sun_is_open = file.sun.is_none() && file.site.as_ref().is_none_or(|site| site.time.is_none());
+    draft.sky = site::sky(&root, &file)?;
+    draft.settings = settings::settings(&root, &file)?;
+    reserved(&root, &file, &mut draft.warnings);
+    place(&root, &file, &mut draft)?;
+    Ok(draft.finish(&path_for_messages.display().to_string()))
+}
+
+/// JSON Schema (2020-12) of scene files, for editors.
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(SceneFile).to_value()
+}
+
+/// A model as a scene.
+fn model(path: &Path) -> Result<Scene, Error> {
+    let sky = Some(Sky { model: "clear".to_owned(), illuminance: None });
+    let mut draft = Draft { sky, sun_is_open: true, ..Draft::default() };
+    models::add_file(&mut draft, path)?;
+    if draft.sun.is_none() {
+        draft.sun = draft.site.sun();
+    }
+    Ok(draft.finish(&path.display().to_string()))
+}
+
+/// Everything that stands in the scene. The file's own cameras come before those of models: the first is
+/// the one that is used unless another is asked for.
+fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Error> {
+    for (i, table) in file.camera.iter().enumerate() {
+        draft.cameras.push(eyes::camera(&root.key("camera").index(i), i + 1, table)?);
+    }
+    draft.materials = materials::named(root, &file.material)?;
+    let named = 0..draft.materials.len();
+    for (i, table) in file.light.iter().enumerate() {
+        let lamp = lamps::lamp(&root.key("light").index(i), i + 1, table, &mut draft.warnings)?;
+        draft.lights.push(lamp);
+    }
+    let mut library = models::Library::default();
+    for (i, table) in file.model.iter().enumerate() {
+        models::add(draft, &mut library, &root.key("model").index(i), table, &named)?;
+    }
+    for (i, table) in file.sensor.iter().enumerate() {
+        draft.sensors.push(eyes::sensor(&root.key("sensor").index(i), i + 1, table)?);
+    }
+    Ok(())
+}
+
+/// Tables of later versions are named, not silently dropped.
+fn reserved(root: &Spot<'_>, file: &SceneFile, warnings: &mut Vec<Warning>) {
+    for (name, tables) in [("solid", &file.solid), ("water", &file.water), ("tree", &file.tree)] {
+        if !tables.is_empty() {
+            let what = format!("planned by a later version; ignored ({} tables)", tables.len());
+            warnings.push(root.key(name).index(0).warning(what));
+        }
+    }
+}
+
+/// A file that could not be opened, with the place that names it.
+fn missing(spot: &Spot<'_>, error: Error) -> Error {
+    match error {
+        Error::Io { path, source } => {
+            let named = spot.warning("");
+            let source = std::io::Error::new(source.kind(), format!("{source} (named in {})", named.place));
+            Error::Io { path, source }
+        }
+        other => other,
+    }
+}

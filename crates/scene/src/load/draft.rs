@@ -1,0 +1,136 @@
+//! A scene while it is put together, in the coordinates of the file.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use light::{Geometry, Instance, Mesh};
+
+use super::{framing, materials, recentre};
+use crate::{Camera, Light, Material, Scene, Sensor, Site, Sky, Sun, Warning};
+
+/// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
+/// 16384 is 0.98 mm.
+const FAR: f64 = 16_384.0;
+
+/// Everything but the origin.
+#[derive(Default)]
+pub(crate) struct Draft {
+    pub(crate) site: Site,
+    pub(crate) geometry: Geometry,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) lights: Vec<Light>,
+    pub(crate) sun: Option<Sun>,
+    /// False where the file decides about the sun itself, so that a model's does not count.
+    pub(crate) sun_is_open: bool,
+    pub(crate) sky: Option<Sky>,
+    pub(crate) cameras: Vec<Camera>,
+    pub(crate) sensors: Vec<Sensor>,
+    pub(crate) settings: BTreeMap<String, String>,
+    pub(crate) warnings: Vec<Warning>,
+    pub(crate) grey: Option<u32>,
+    pub(crate) lost: usize,
+}
+
+impl Draft {
+    /// Index of the material of inline geometry that names none.
+    pub(crate) fn grey(&mut self) -> u32 {
+        if self.grey.is_none() {
+            self.grey = Some(self.materials.len() as u32);
+            self.materials.push(materials::grey());
+        }
+        self.grey.unwrap_or_default()
+    }
+
+    pub(crate) fn add_mesh(&mut self, mesh: Mesh, world_from_mesh: DAffine3) {
+        let index = self.geometry.meshes.len() as u32;
+        self.geometry.meshes.push(mesh);
+        self.add_instance(index, world_from_mesh);
+    }
+
+    /// A placement that f64 cannot hold (scales multiplied through a hierarchy) is left out and counted.
+    pub(crate) fn add_instance(&mut self, mesh: u32, world_from_mesh: DAffine3) {
+        let volume = world_from_mesh.matrix3.determinant().abs();
+        if world_from_mesh.is_finite()
+            && volume > 0.0
+            && world_from_mesh.translation.abs().max_element() < 1e9
+        {
+            self.geometry.instances.push(Instance { mesh, world_from_mesh });
+        } else {
+            self.lost += 1;
+        }
+    }
+
+    /// A model's own sun: the first one counts, if the file leaves that open.
+    pub(crate) fn add_sun(&mut self, sun: Sun, place: &str, name: &str) {
+        if self.sun_is_open && self.sun.is_none() {
+            self.sun = Some(sun);
+            return;
+        }
+        let place = format!("{place}: light {name:?}");
+        let what =
+            "a directional light is a sun, and the scene has its own or another one already; it is left out";
+        self.warnings.push(Warning { place, what: what.to_owned() });
+    }
+
+    /// Recentred and complete: at least one camera.
+    pub(crate) fn finish(mut self, name: &str) -> Scene {
+        if self.cameras.is_empty() {
+            self.cameras.push(framing::frame(&self.geometry));
+        }
+        let others: Vec<DVec3> = self
+            .lights
+            .iter()
+            .map(|light| light.position)
+            .chain(self.sensors.iter().filter_map(|sensor| sensor.points.first().copied()))
+            .chain(self.cameras.iter().map(|camera| camera.position))
+            .collect();
+        let origin = recentre::origin(&self.geometry, &others);
+        self.geometry
+            .instances
+            .iter_mut()
+            .for_each(|instance| instance.world_from_mesh.translation -= origin);
+        self.lights.iter_mut().for_each(|light| light.position -= origin);
+        self.cameras.iter_mut().for_each(|camera| camera.position -= origin);
+        self.sensors.iter_mut().flat_map(|sensor| &mut sensor.points).for_each(|point| *point -= origin);
+        self.warn(name);
+        Scene {
+            site: self.site,
+            origin,
+            geometry: Arc::new(self.geometry),
+            materials: self.materials,
+            lights: self.lights,
+            sun: self.sun,
+            sky: self.sky,
+            cameras: self.cameras,
+            sensors: self.sensors,
+            settings: self.settings,
+            warnings: self.warnings,
+        }
+    }
+
+    /// What the user should know about the whole.
+    fn warn(&mut self, name: &str) {
+        let mut warn = |what: String| self.warnings.push(Warning { place: name.to_owned(), what });
+        if self.lost > 0 {
+            warn(format!("{} placements are flat or beyond 10⁹ m; they are left out", self.lost));
+        }
+        if self.geometry.instances.is_empty() {
+            warn("there is nothing to see: no model has a face".to_owned());
+        }
+        let boxes = recentre::instance_boxes(&self.geometry);
+        let reach = boxes
+            .iter()
+            .flatten()
+            .map(|(low, high)| low.abs().max(high.abs()).max_element())
+            .fold(0.0, f64::max);
+        if reach > FAR {
+            // Half an ulp of f32 at that distance.
+            let off = 0.5 * f64::from(f32::EPSILON) * reach * 1000.0;
+            warn(format!(
+                "geometry reaches {:.0} km from the middle; out there positions are good to {off:.0} mm",
+                reach / 1000.0
+            ));
+        }
+    }
+}

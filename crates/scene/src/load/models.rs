@@ -1,0 +1,183 @@
+//! Models: read once, placed as often as the file says.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::DAffine3;
+use light::{Instance, Mesh};
+
+use super::draft::Draft;
+use super::{inline, materials, placement, punctual};
+use crate::document::Spot;
+use crate::file::{MaterialTable, ModelTable};
+use crate::{Error, Material, gltf};
+
+/// Models that were read, by file and what was changed in their materials.
+#[derive(Default)]
+pub(crate) struct Library(Vec<(PathBuf, BTreeMap<String, MaterialTable>, Shelved)>);
+
+/// A model whose meshes and materials are in the scene already.
+struct Shelved {
+    instances: Vec<Instance>,
+    cameras: Vec<gltf::ModelCamera>,
+    lights: Vec<gltf::PunctualLight>,
+    path: PathBuf,
+}
+
+/// Adds what one `[[model]]` table describes.
+pub(crate) fn add(
+    draft: &mut Draft,
+    library: &mut Library,
+    spot: &Spot<'_>,
+    table: &ModelTable,
+    named: &Range<usize>,
+) -> Result<(), Error> {
+    spot.exactly_one(&[
+        ("file", table.file.is_some()),
+        ("box", table.cuboid.is_some()),
+        ("plane", table.plane.is_some()),
+        ("polygon", table.polygon.is_some()),
+        ("terrain", table.terrain.is_some()),
+    ])?;
+    let placement = placement::of_model(spot, table)?;
+    if let Some(name) = &table.file {
+        if table.material.is_some() {
+            let what = "is for inline geometry; change a file's materials in [model.materials.NAME]";
+            return Err(spot.key("material").error(what));
+        }
+        let path = spot.file(name);
+        let shelved = library.shelve(draft, spot, &path, &table.materials)?;
+        return place(draft, shelved, &placement);
+    }
+    if !table.materials.is_empty() {
+        let what = "is for model files; inline geometry has the key material, the name of a [[material]]";
+        return Err(spot.key("materials").error(what));
+    }
+    let material = material_of(draft, spot, table, named)?;
+    if let Some(inline) = inline::geometry(spot, table, &mut draft.warnings)? {
+        let world_from_mesh = inline.placed(&placement);
+        draft.add_mesh(Mesh { material, ..inline.mesh }, world_from_mesh);
+    }
+    Ok(())
+}
+
+/// Adds a whole model file as it is.
+pub(crate) fn add_file(draft: &mut Draft, path: &Path) -> Result<(), Error> {
+    let shelved = shelve(draft, gltf::read(path)?, path);
+    place(draft, &shelved, &DAffine3::IDENTITY)
+}
+
+/// Index of the material that inline geometry is made of.
+fn material_of(
+    draft: &mut Draft,
+    spot: &Spot<'_>,
+    table: &ModelTable,
+    named: &Range<usize>,
+) -> Result<u32, Error> {
+    let Some(name) = &table.material else { return Ok(draft.grey()) };
+    let index = named.clone().find(|i| draft.materials[*i].name == *name);
+    index.map(|i| i as u32).ok_or_else(|| {
+        let known = list(&draft.materials[named.clone()]);
+        spot.key("material").error(format!("{name:?} is unknown; [[material]] tables define {known}"))
+    })
+}
+
+/// Names for a message, at most 40 of them.
+fn list(materials: &[Material]) -> String {
+    let mut names: Vec<&str> = materials.iter().map(|m| m.name.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    if names.is_empty() {
+        return "none".to_owned();
+    }
+    let more = names.len().saturating_sub(40);
+    names.truncate(40);
+    let shown = names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+    if more > 0 { format!("{shown} and {more} more") } else { shown }
+}
+
+impl Library {
+    fn shelve(
+        &mut self,
+        draft: &mut Draft,
+        spot: &Spot<'_>,
+        path: &Path,
+        changes: &BTreeMap<String, MaterialTable>,
+    ) -> Result<&Shelved, Error> {
+        let known = self.0.iter().position(|(p, c, _)| p == path && c == changes);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let mut model = gltf::read(path).map_err(|error| super::missing(&spot.key("file"), error))?;
+                change(&mut model.materials, &spot.key("materials"), changes)?;
+                self.0.push((path.to_path_buf(), changes.clone(), shelve(draft, model, path)));
+                self.0.len() - 1
+            }
+        };
+        Ok(&self.0[index].2)
+    }
+}
+
+/// Applies `[model.materials.NAME]` tables.
+fn change(
+    found: &mut [Material],
+    spot: &Spot<'_>,
+    changes: &BTreeMap<String, MaterialTable>,
+) -> Result<(), Error> {
+    for (name, table) in changes {
+        let spot = spot.key(name);
+        if table.name.is_some() {
+            return Err(spot
+                .key("name")
+                .error("is not possible here: the table's own name says which material"));
+        }
+        if !found.iter().any(|material| material.name == *name) {
+            return Err(spot.error(format!("the model has no such material; it has {}", list(found))));
+        }
+        for material in found.iter_mut().filter(|material| material.name == *name) {
+            materials::change(&spot, table, material)?;
+        }
+    }
+    Ok(())
+}
+
+/// Moves meshes and materials into the scene.
+fn shelve(draft: &mut Draft, model: gltf::Model, path: &Path) -> Shelved {
+    let (first_mesh, first_material) = (draft.geometry.meshes.len() as u32, draft.materials.len() as u32);
+    draft.materials.extend(model.materials);
+    let meshes = model.meshes.into_iter();
+    draft
+        .geometry
+        .meshes
+        .extend(meshes.map(|mesh| Mesh { material: mesh.material + first_material, ..mesh }));
+    draft.warnings.extend(model.warnings);
+    let instances =
+        model.instances.into_iter().map(|i| Instance { mesh: i.mesh + first_mesh, ..i }).collect();
+    Shelved { instances, cameras: model.cameras, lights: model.lights, path: path.to_path_buf() }
+}
+
+/// Places everything of a model.
+fn place(draft: &mut Draft, shelved: &Shelved, placement: &DAffine3) -> Result<(), Error> {
+    for instance in &shelved.instances {
+        draft.add_instance(instance.mesh, *placement * instance.world_from_mesh);
+    }
+    for camera in &shelved.cameras {
+        draft.cameras.extend(punctual::camera(camera, placement, draft.cameras.len() + 1));
+    }
+    let origin = shelved.path.display().to_string();
+    for light in &shelved.lights {
+        let placed = punctual::light(light, placement, &draft.site, &origin, &mut draft.warnings)?;
+        match placed {
+            None => {}
+            Some(punctual::Placed::Sun(sun)) => draft.add_sun(sun, &origin, &light.name),
+            Some(punctual::Placed::Lamp(mut lamp)) => {
+                if lamp.name.is_empty() {
+                    lamp.name = format!("light-{}", draft.lights.len() + 1);
+                }
+                draft.lights.push(lamp);
+            }
+        }
+    }
+    Ok(())
+}
