@@ -44,6 +44,7 @@ mod query;
 mod rays;
 mod reference;
 mod shot;
+pub mod surface;
 mod tree;
 mod triangle;
 mod walk;
