@@ -9,6 +9,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use crate::cull::cull;
 use crate::segment::Segment;
 
 /// A visible part \[x0, x1\] of segment `of`.
@@ -36,9 +37,10 @@ const SHALLOW: usize = 24;
 
 impl Envelope {
     /// Replaces `visible` by the visible parts of `segments`, from the left; they do not overlap.
-    /// `segments` come out sorted by (x0, face).
-    pub(crate) fn find(&mut self, segments: &mut [Segment], visible: &mut Vec<Segment>) {
+    /// `segments`, all within \[0, `width`\], come out sorted by (x0, face), less some that are hidden.
+    pub(crate) fn find(&mut self, segments: &mut Vec<Segment>, width: f64, visible: &mut Vec<Segment>) {
         visible.clear();
+        cull(segments, width);
         if segments.is_empty() {
             return;
         }
@@ -197,5 +199,50 @@ fn decide(segments: &[Segment], of: [u32; 2], l: f64, r: f64, mut receive: impl 
             part(x, r, at_r > 0.0);
         }
         (left, right) => part(l, r, left + right > 0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const WIDTH: f64 = 64.0;
+
+    fn segment(face: u32, x0: f64, length: f64, w: f64, slope: f64) -> Segment {
+        Segment { x0, x1: (x0 + length).min(WIDTH), w, slope, error: 1e-13, face }
+    }
+
+    fn nearest(segments: &[Segment], x: f64) -> Option<f64> {
+        let here = segments.iter().filter(|s| s.x0 <= x && x <= s.x1);
+        here.map(|s| s.nearness(x)).max_by(f64::total_cmp)
+    }
+
+    proptest! {
+        /// 60 long segments are deep enough to be culled; few and short ones are not.
+        #[test]
+        fn the_nearest_shows_everywhere(
+            numbers in prop::collection::vec((0f64..60.0, 0.01f64..64.0, 0f64..1.0, -0.01f64..0.01), 0..120),
+            shrink in prop::bool::ANY,
+        ) {
+            let scale = if shrink { 0.05 } else { 1.0 };
+            let all: Vec<_> = (0u32..).zip(&numbers)
+                .map(|(face, &(x, length, w, slope))| segment(face, x, length * scale, w, slope))
+                .collect();
+            let mut visible = Vec::new();
+            Envelope::default().find(&mut all.clone(), WIDTH, &mut visible);
+            for pair in visible.windows(2) {
+                prop_assert!(pair[0].x1 <= pair[1].x0);
+            }
+            for i in 0..640 {
+                let x = f64::from(i) * 0.1 + 0.0123;
+                let shown = visible.iter().find(|s| s.x0 <= x && x <= s.x1).map(|s| s.nearness(x));
+                match (shown, nearest(&all, x)) {
+                    // Two errors of 1e-13, and as much again for a border between two equal ones.
+                    (Some(shown), Some(nearest)) => prop_assert!((shown - nearest).abs() <= 4e-13),
+                    (shown, nearest) => prop_assert_eq!(shown, nearest),
+                }
+            }
+        }
     }
 }

@@ -41,6 +41,7 @@
 //! ```
 
 mod buckets;
+mod cull;
 mod envelope;
 mod grid;
 mod knobs;

@@ -50,6 +50,7 @@ pub(crate) struct Line {
 #[derive(Default)]
 pub(crate) struct Scratch {
     envelope: Envelope,
+    ys: Vec<f64>,
     opaque: Vec<Vec<Segment>>,
     veils: Vec<Vec<Segment>>,
 }
@@ -94,20 +95,17 @@ impl Scanline {
         let lines = self.grid.group(group);
         let lines = lines.start..lines.end.min(lines.start + count);
         let len = lines.len();
+        scratch.ys.clear();
+        scratch.ys.extend(lines.map(|line| self.grid.y(line)));
         for lists in [&mut scratch.opaque, &mut scratch.veils] {
             lists.iter_mut().for_each(Vec::clear);
             lists.resize_with(len.max(lists.len()), Vec::new);
         }
         let mut add = |instance: u32, triangle: u32, corners: [DVec3; 3]| {
-            let crossed = segment::lines(&self.grid, &corners);
-            let crossed = crossed.start.max(lines.start)..crossed.end.min(lines.end);
-            if crossed.is_empty() {
-                return;
-            }
             let face = self.first_faces[instance as usize] + triangle;
             let lists = if self.veiled[instance as usize] { &mut scratch.veils } else { &mut scratch.opaque };
-            segment::cut(&self.grid, &self.rounding, corners, crossed, face, |line, segment| {
-                lists[(line - lines.start) as usize].push(segment);
+            segment::cut(&scratch.ys, &self.rounding, corners, face, |line, segment| {
+                lists[line].push(segment);
             });
         };
         for &[instance, triangle] in self.faces.touching(group).flatten() {
@@ -122,7 +120,7 @@ impl Scanline {
         }
         out.resize_with(len, Line::default);
         for (i, line) in out.iter_mut().enumerate() {
-            scratch.envelope.find(&mut scratch.opaque[i], &mut line.opaque);
+            scratch.envelope.find(&mut scratch.opaque[i], f64::from(self.view.width), &mut line.opaque);
             veil::in_front(&scratch.veils[i], &line.opaque, &mut line.veils);
         }
     }

@@ -99,14 +99,14 @@ pub(crate) fn lines(grid: &Grid, corners: &[DVec3; 3]) -> Range<u32> {
     grid.first_at_or_below(a.min(b).min(c))..grid.first_at_or_below(a.max(b).max(c))
 }
 
-/// Cuts a face by `lines`, which it must cross, and hands out (line, segment), clipped to the picture.
+/// Cuts a face by the lines at `ys`, which rise, and hands out (index into `ys`, segment), clipped to the
+/// picture.
 pub(crate) fn cut(
-    grid: &Grid,
+    ys: &[f64],
     rounding: &Rounding,
     corners: [DVec3; 3],
-    lines: Range<u32>,
     face: u32,
-    mut receive: impl FnMut(u32, Segment),
+    mut receive: impl FnMut(usize, Segment),
 ) {
     let [mut a, mut b, mut c] = corners;
     if b.y < a.y {
@@ -118,28 +118,52 @@ pub(crate) fn cut(
             std::mem::swap(&mut a, &mut b);
         }
     }
-    // Edges of no height are crossed by no line; their slopes are never looked at.
-    let (long, upper, lower) = (Edge::new(a, c), Edge::new(a, b), Edge::new(b, c));
-    let x_largest = a.x.abs().max(b.x.abs()).max(c.x.abs());
-    let w_largest = a.z.abs().max(b.z.abs()).max(c.z.abs());
-    for line in lines {
-        let y = grid.y(line);
-        let short = if y < b.y { &upper } else { &lower };
-        let (p, q) = (long.at(y), short.at(y));
-        let ((x0, w0), (x1, w1)) = if q.0 < p.0 { (q, p) } else { (p, q) };
-        // Also false for a NaN.
-        if !(x0 < x1 && x1 > 0.0 && x0 < rounding.width) {
+    let above = |y: f64| ys.iter().take_while(|line| **line < y).count();
+    let (start, end) = (above(a.y), above(c.y));
+    if start == end {
+        return;
+    }
+    let middle = above(b.y);
+    let largest = {
+        let largest = a.abs().max(b.abs()).max(c.abs());
+        (largest.x, largest.z)
+    };
+    let long = Edge::new(a, c);
+    // An edge that no line crosses may have no height; its slope is not asked for.
+    for (short, lines) in [((a, b), start..middle), ((b, c), middle..end)] {
+        if lines.is_empty() {
             continue;
         }
-        let slope = (w1 - w0) / (x1 - x0);
-        let mut segment = Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face };
-        if x0 < 0.0 {
-            segment.w = w0 - x0 * slope;
-            segment.x0 = 0.0;
+        let short = Edge::new(short.0, short.1);
+        for line in lines {
+            let ends = (long.at(ys[line]), short.at(ys[line]));
+            if let Some(segment) = between(rounding, ends, largest, face) {
+                receive(line, segment);
+            }
         }
-        let end = segment.nearness(segment.x1);
-        let near = segment.w.abs().max(end.abs());
-        segment.error = rounding.of(near, slope, (x_largest, w_largest), end - segment.w);
-        receive(line, segment);
     }
+}
+
+/// The segment between two (x, nearness), in any order; none where nothing of it is in the picture.
+fn between(
+    rounding: &Rounding,
+    (p, q): ((f64, f64), (f64, f64)),
+    largest: (f64, f64),
+    face: u32,
+) -> Option<Segment> {
+    let ((x0, w0), (x1, w1)) = if q.0 < p.0 { (q, p) } else { (p, q) };
+    // Also false for a NaN.
+    if !(x0 < x1 && x1 > 0.0 && x0 < rounding.width) {
+        return None;
+    }
+    let slope = (w1 - w0) / (x1 - x0);
+    let mut segment = Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face };
+    if x0 < 0.0 {
+        segment.w = w0 - x0 * slope;
+        segment.x0 = 0.0;
+    }
+    let end = segment.nearness(segment.x1);
+    let near = segment.w.abs().max(end.abs());
+    segment.error = rounding.of(near, slope, largest, end - segment.w);
+    Some(segment)
 }
