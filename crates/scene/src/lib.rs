@@ -7,10 +7,13 @@
 //! **Leaves out.** What to do with the data: chapters never see this crate.
 
 mod error;
+pub mod gltf;
+mod image_file;
 mod material;
 pub mod photometry;
 mod scene;
 mod sun;
+pub mod triangulate;
 
 pub use error::{Error, Warning};
 pub use material::{Material, NormalMap, UvTransform, Volume};

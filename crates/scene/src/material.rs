@@ -33,6 +33,10 @@ pub struct Material {
     pub transmission: f32,
     /// Index of refraction, ≥ 1.
     pub ior: f32,
+    /// Factor on the specular reflection of a dielectric, within \[0, 1\] (KHR_materials_specular).
+    pub specular: f32,
+    /// Colour of that reflection at normal incidence, linear sRGB, ≥ 0.
+    pub specular_colour: Vec3,
     /// What fills the body behind the surface (KHR_materials_volume); none = a thin pane.
     pub volume: Option<Volume>,
     /// Share of light transmitted diffusely (KHR_materials_diffuse_transmission: leaves), within \[0, 1\].
@@ -56,10 +60,26 @@ impl Default for Material {
             emission_texture: None,
             transmission: 0.0,
             ior: 1.5,
+            specular: 1.0,
+            specular_colour: Vec3::ONE,
             volume: None,
             diffuse_transmission: 0.0,
             diffuse_transmission_colour: Vec3::ONE,
         }
+    }
+}
+
+impl Material {
+    /// Share of light that the dielectric reflects at normal incidence, per linear sRGB channel:
+    /// F₀ = specular · min(((n−1)/(n+1))² · specular_colour, 1) (KHR_materials_specular).
+    ///
+    /// ```
+    /// let f0 = keikan_scene::Material::default().normal_reflectance();
+    /// assert!((f0.x - 0.04).abs() < 1e-7); // (0.5/2.5)², one rounding of f32
+    /// ```
+    pub fn normal_reflectance(&self) -> Vec3 {
+        let r = (self.ior - 1.0) / (self.ior + 1.0);
+        (self.specular_colour * (r * r)).min(Vec3::ONE) * self.specular
     }
 }
 
