@@ -55,7 +55,7 @@ pub fn read(path: &Path) -> Result<Picture, Error> {
         "png" | "jpg" | "jpeg" => {
             let image = image::open(path).map_err(|error| wrong(error.to_string()))?.to_rgb32f();
             let (width, height) = (image.width() as usize, image.height() as usize);
-            let rgb = image.pixels().map(|p| Vec3::from_array(p.0.map(light::colour::srgb_decode))).collect();
+            let rgb = image.pixels().map(|p| Vec3::from_array(p.0.map(light::colour::decode_srgb))).collect();
             Ok(Picture { width, height, rgb })
         }
         other => Err(wrong(format!("\"{other}\" is not a format that can be compared; there are: exr, png, jpg"))),
@@ -138,7 +138,7 @@ fn ssim(a: &Picture, b: &Picture, white: f32) -> Result<f64, Error> {
     let grey = |picture: &Picture| {
         let bytes = picture.rgb.iter().map(|rgb| {
             let y = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)) / white;
-            (light::colour::srgb_encode(y.clamp(0.0, 1.0)) * 255.0 + 0.5) as u8
+            (light::colour::encode_srgb(y.clamp(0.0, 1.0)) * 255.0 + 0.5) as u8
         });
         image::GrayImage::from_raw(picture.width as u32, picture.height as u32, bytes.collect())
     };

@@ -16,6 +16,9 @@ pub struct Source {
     pub name: String,
     /// What arrives from it.
     pub light: Box<dyn Illuminate>,
+    /// True for lights that reach surfaces as beams (sun, lamps): shaders make their highlights, so mirrored
+    /// rays must not meet them once more.
+    pub beam: bool,
 }
 
 /// How far mirrored and refracted rays are followed.
@@ -139,7 +142,7 @@ impl Pipeline {
             let open = 1.0 - covered;
             if open > 1e-5 {
                 let at = DVec2::new(f64::from(first) + column as f64 + 0.5, f64::from(row) + 0.5);
-                *pixel += around.background(&self.view.ray(at)) * open;
+                *pixel += around.background(&self.view.ray(at), Path::EYE) * open;
             }
         }
     }
@@ -164,8 +167,10 @@ impl Around<'_> {
         }
     }
 
-    fn background(&self, ray: &Ray) -> Spectrum {
-        self.sources.iter().map(|&i| self.pipeline.sources[i].light.radiance(ray)).sum()
+    /// What is behind everything: for the eye all sources, for mirrored rays only those without highlights.
+    fn background(&self, ray: &Ray, path: Path) -> Spectrum {
+        let sources = self.sources.iter().map(|&i| &self.pipeline.sources[i]);
+        sources.filter(|source| path.depth == 0 || !source.beam).map(|source| source.light.radiance(ray)).sum()
     }
 }
 
@@ -185,7 +190,7 @@ impl Surroundings for Around<'_> {
                 hit.path = path;
                 self.leaves(&hit)
             }
-            None => self.background(ray),
+            None => self.background(ray, path),
         }
     }
 }

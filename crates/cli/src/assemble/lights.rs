@@ -23,6 +23,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Result<Vec<Source>,
             distribution: (*light.distribution).clone(),
             spectrum: colour(&light.spectrum),
         }),
+        beam: true,
     }));
     Ok(sources)
 }
@@ -32,7 +33,7 @@ fn colour(spectrum: &LightSpectrum) -> Spectrum {
     match spectrum {
         LightSpectrum::Temperature(kelvin) => Spectrum::light_of_temperature(*kelvin),
         LightSpectrum::Rgb(rgb) => Spectrum::light_of_colour(*rgb),
-        LightSpectrum::Table(table) => Spectrum::from_table(table).of_luminance(1.0),
+        LightSpectrum::Table(table) => Spectrum::light_of_table(table),
     }
 }
 
@@ -60,7 +61,7 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
         samples: settings.integer("sun.samples"),
     };
     let risen = sun.altitude > -0.5 * sun.diameter;
-    (risen && !light.irradiance.is_zero()).then(|| Source { name: "sun".to_owned(), light: Box::new(light) })
+    (risen && !light.irradiance.is_zero()).then(|| Source { name: "sun".to_owned(), light: Box::new(light), beam: true })
 }
 
 fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
@@ -86,7 +87,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
         samples: settings.integer("sky.rays"),
         ..Description::new(pattern, toward_sun)
     };
-    Ok(Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)) }))
+    Ok(Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)), beam: false }))
 }
 
 /// Height of the scene's own ground \[m\]: the median height of its level faces, by area; a tenth of a per

@@ -29,7 +29,7 @@ pub struct Header {
 ///
 /// # Errors
 /// Only what the encoder itself refuses, as text.
-pub fn encode(pictures: &[Picture], header: &Header) -> Result<Vec<u8>, String> {
+pub fn encode(pictures: &[Picture], header: &Header) -> std::result::Result<Vec<u8>, String> {
     let Some(whole) = pictures.first() else { return Err("there is no picture".to_owned()) };
     let mut channels = SmallVec::new();
     for picture in pictures {

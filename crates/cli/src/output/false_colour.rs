@@ -1,7 +1,6 @@
 //! Luminance in false colour, with isolines and a legend in cd/m².
 
 use font8x8::{BASIC_FONTS, UnicodeFonts};
-use glam::Vec3;
 
 use super::{Picture, png_file};
 use crate::args::Span;

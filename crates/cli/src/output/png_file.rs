@@ -80,7 +80,7 @@ fn neutral(rgb: Vec3) -> Vec3 {
 
 /// sRGB-encoded bytes, three a pixel.
 pub(super) fn bytes(colours: impl Iterator<Item = Vec3>) -> Vec<u8> {
-    let encode = |share: f32| (light::colour::srgb_encode(share) * 255.0 + 0.5) as u8;
+    let encode = |share: f32| (light::colour::encode_srgb(share) * 255.0 + 0.5) as u8;
     colours.flat_map(|rgb| [encode(rgb.x), encode(rgb.y), encode(rgb.z)]).collect()
 }
 
