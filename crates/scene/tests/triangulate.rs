@@ -35,7 +35,7 @@ fn a_frame_is_a_square_less_a_square() {
         if reverse {
             hole.reverse();
         }
-        let triangles = polygon(&square(0.0, 3.0), &[hole.clone()]).unwrap();
+        let triangles = polygon(&square(0.0, 3.0), std::slice::from_ref(&hole)).unwrap();
         let points = [square(0.0, 3.0), hole].concat();
         assert_eq!(triangles.len(), 8);
         // Small integers: exact.
@@ -82,7 +82,7 @@ proptest! {
         let rotation = DMat3::from_euler(glam::EulerRot::XYZ, turn[0], turn[1], turn[2]);
         let place = |list: Vec<DVec3>| -> Vec<DVec3> { list.into_iter().map(|p| rotation * p + DVec3::from_array(shift)).collect() };
         let (outer, hole) = (place(star(&radii, 0.1)), place(star(&hole, 0.7)));
-        let triangles = polygon(&outer, &[hole.clone()]).unwrap();
+        let triangles = polygon(&outer, std::slice::from_ref(&hole)).unwrap();
         prop_assert_eq!(triangles.len(), outer.len() + hole.len());
         let points = [outer.clone(), hole.clone()].concat();
         // Corners moved off their plane by rounding, ½ ulp of 1e6 = 6e-11 a coordinate: over all n sides (of

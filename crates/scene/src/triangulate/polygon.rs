@@ -47,7 +47,7 @@ fn flatten(all: &[DVec3], normal: DVec3) -> Vec<DVec2> {
     };
     // The library refuses numbers between 0 and 2⁻¹⁴²: they are as good as 0.
     let settle = |x: f64| if x.abs() < 1e-40 { 0.0 } else { x };
-    all.iter().map(|p| project(p)).map(|p| DVec2::new(settle(p.x), settle(p.y))).collect()
+    all.iter().map(project).map(|p| DVec2::new(settle(p.x), settle(p.y))).collect()
 }
 
 /// The sides of all loops; corners that repeat their predecessor have none.
@@ -132,7 +132,8 @@ fn depths(cdt: &Cdt) -> Vec<u32> {
     while !open.is_empty() {
         let mut deeper = Vec::new();
         while let Some(edge) = open.pop() {
-            let crosses = here == 0 && edge.is_constraint_edge() && depth[edge.rev().face().fix().index()] == 0;
+            let crosses =
+                here == 0 && edge.is_constraint_edge() && depth[edge.rev().face().fix().index()] == 0;
             if crosses {
                 deeper.push(edge);
                 continue;

@@ -7,14 +7,14 @@ use serde_json::{Value, json};
 
 /// A model in the making.
 #[derive(Clone)]
-pub struct Builder {
-    pub json: Value,
-    pub binary: Vec<u8>,
+pub(crate) struct Builder {
+    pub(crate) json: Value,
+    pub(crate) binary: Vec<u8>,
 }
 
 impl Builder {
     /// Nothing but `asset` and one buffer.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let json = json!({
             "asset": { "version": "2.0" }, "buffers": [{ "byteLength": 0 }],
             "bufferViews": [], "accessors": [], "meshes": [], "nodes": []
@@ -23,7 +23,7 @@ impl Builder {
     }
 
     /// One triangle (0,0,0) (1,0,0) (0,1,0), indexed by u16, worn by one node.
-    pub fn triangle() -> Self {
+    pub(crate) fn triangle() -> Self {
         let mut builder = Self::new();
         let positions = builder.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         let indices = builder.data(&[0, 0, 1, 0, 2, 0], 5123, "SCALAR", 3);
@@ -34,7 +34,7 @@ impl Builder {
     }
 
     /// A buffer view of these bytes.
-    pub fn view(&mut self, bytes: &[u8]) -> usize {
+    pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let views = self.json["bufferViews"].as_array_mut().unwrap();
         views.push(json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() }));
@@ -44,7 +44,7 @@ impl Builder {
     }
 
     /// An accessor on these bytes.
-    pub fn data(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
+    pub(crate) fn data(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
         let view = self.view(bytes);
         let accessor =
             json!({ "bufferView": view, "componentType": component, "type": kind, "count": count });
@@ -53,25 +53,25 @@ impl Builder {
     }
 
     /// An accessor on these floats.
-    pub fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
+    pub(crate) fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
         let bytes: Vec<u8> = values.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
         self.data(&bytes, 5126, ["", "SCALAR", "VEC2", "VEC3", "VEC4"][N], values.len())
     }
 
     /// Sets an attribute of the first primitive.
-    pub fn attribute(&mut self, name: &str, accessor: usize) {
+    pub(crate) fn attribute(&mut self, name: &str, accessor: usize) {
         self.json["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
     }
 
     /// A PNG of 8-bit RGBA as image, with a texture.
-    pub fn texture(&mut self, width: u32, height: u32, rgba: &[u8]) -> usize {
+    pub(crate) fn texture(&mut self, width: u32, height: u32, rgba: &[u8]) -> usize {
         let view = self.view(&png(width, height, rgba));
         let image = push(&mut self.json, "images", json!({ "bufferView": view, "mimeType": "image/png" }));
         push(&mut self.json, "textures", json!({ "source": image }))
     }
 
     /// The file.
-    pub fn glb(&self) -> Vec<u8> {
+    pub(crate) fn glb(&self) -> Vec<u8> {
         let mut text = serde_json::to_vec(&self.json).unwrap();
         text.resize(text.len().next_multiple_of(4), b' ');
         let mut binary = self.binary.clone();
@@ -90,12 +90,12 @@ impl Builder {
     }
 
     /// Reads it.
-    pub fn read(&self) -> Result<Model, String> {
+    pub(crate) fn read(&self) -> Result<Model, String> {
         read(&self.glb())
     }
 
     /// Reads it, with `pointer` set to `value` first.
-    pub fn with(&self, pointer: &str, value: Value) -> Result<Model, String> {
+    pub(crate) fn with(&self, pointer: &str, value: Value) -> Result<Model, String> {
         let mut changed = self.clone();
         let (parent, key) = pointer.rsplit_once('/').unwrap();
         let parent = changed.json.pointer_mut(parent).expect("parent exists");
@@ -108,12 +108,12 @@ impl Builder {
 }
 
 /// Reads a model from memory, with errors as text.
-pub fn read(bytes: &[u8]) -> Result<Model, String> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Model, String> {
     parse(bytes, Path::new("/nonexistent-folder"), Path::new("test.glb")).map_err(|error| error.to_string())
 }
 
 /// Appends to a list at the root, which is made if it is not there.
-pub fn push(json: &mut Value, list: &str, item: Value) -> usize {
+pub(crate) fn push(json: &mut Value, list: &str, item: Value) -> usize {
     if json[list].is_null() {
         json[list] = json!([]);
     }
@@ -123,13 +123,13 @@ pub fn push(json: &mut Value, list: &str, item: Value) -> usize {
 }
 
 /// A PNG of 8-bit RGBA.
-pub fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
+pub(crate) fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
     let image = image::RgbaImage::from_raw(width, height, rgba.to_vec()).unwrap();
     encode(&image.into())
 }
 
 /// A PNG of any kind.
-pub fn encode(image: &image::DynamicImage) -> Vec<u8> {
+pub(crate) fn encode(image: &image::DynamicImage) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
