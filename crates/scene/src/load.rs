@@ -107,18 +107,22 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     for (i, table) in file.camera.iter().enumerate() {
         draft.cameras.push(eyes::camera(&root.key("camera").index(i), i + 1, table)?);
     }
-    draft.materials = materials::named(root, &file.material)?;
-    let named = 0..draft.materials.len();
+    let (named, names) = materials::named(root, &file.material)?;
+    draft.materials = named;
+    let mut photometry = lamps::Files::default();
     for (i, table) in file.light.iter().enumerate() {
-        let lamp = lamps::lamp(&root.key("light").index(i), i + 1, table, &mut draft.warnings)?;
-        draft.lights.push(lamp);
+        let spot = root.key("light").index(i);
+        draft.lights.push(lamps::lamp(&spot, i + 1, table, &mut photometry, &mut draft.warnings)?);
     }
     let mut library = models::Library::default();
     for (i, table) in file.model.iter().enumerate() {
-        models::add(draft, &mut library, &root.key("model").index(i), table, &named)?;
+        models::add(draft, &mut library, &root.key("model").index(i), table, &names)?;
     }
+    let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {
-        draft.sensors.push(eyes::sensor(&root.key("sensor").index(i), i + 1, table)?);
+        let sensor = eyes::sensor(&root.key("sensor").index(i), i + 1, table, left)?;
+        left = left.saturating_sub(sensor.points.len() as u64);
+        draft.sensors.push(sensor);
     }
     Ok(())
 }

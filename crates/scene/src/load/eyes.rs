@@ -11,8 +11,8 @@ use crate::{Camera, Error, Sensor};
 /// Height of a photographic frame of 36 × 24 mm \[mm\].
 const FRAME_HEIGHT: f64 = 24.0;
 
-/// Most points of one sensor.
-const MOST_POINTS: u64 = 10_000_000;
+/// Most points of all sensors together.
+pub(crate) const MOST_POINTS: u64 = 10_000_000;
 
 /// The camera of one table.
 pub(crate) fn camera(spot: &Spot<'_>, number: usize, table: &CameraTable) -> Result<Camera, Error> {
@@ -63,8 +63,13 @@ fn projection(spot: &Spot<'_>, table: &CameraTable) -> Result<Projection, Error>
     }
 }
 
-/// The sensor of one table.
-pub(crate) fn sensor(spot: &Spot<'_>, number: usize, table: &SensorTable) -> Result<Sensor, Error> {
+/// The sensor of one table, which may have at most `left` points.
+pub(crate) fn sensor(
+    spot: &Spot<'_>,
+    number: usize,
+    table: &SensorTable,
+    left: u64,
+) -> Result<Sensor, Error> {
     let name = table.name.clone().unwrap_or_else(|| format!("sensor-{number}"));
     let normal = spot.key("normal").direction(table.normal.unwrap_or([0.0, 1.0, 0.0]))?;
     spot.exactly_one(&[
@@ -79,9 +84,9 @@ pub(crate) fn sensor(spot: &Spot<'_>, number: usize, table: &SensorTable) -> Res
         }
         spot.points(points)?
     } else if let Some(table) = &table.line {
-        line(&spot.key("line"), table)?
+        line(&spot.key("line"), table, left)?
     } else if let Some(table) = &table.grid {
-        grid(&spot.key("grid"), table)?
+        grid(&spot.key("grid"), table, left)?
     } else {
         Vec::new()
     };
@@ -89,23 +94,26 @@ pub(crate) fn sensor(spot: &Spot<'_>, number: usize, table: &SensorTable) -> Res
 }
 
 /// Both ends included.
-fn line(spot: &Spot<'_>, table: &LineTable) -> Result<Vec<DVec3>, Error> {
+fn line(spot: &Spot<'_>, table: &LineTable, left: u64) -> Result<Vec<DVec3>, Error> {
     let (from, to) = (spot.key("from").point(table.from)?, spot.key("to").point(table.to)?);
-    if table.count < 2 || u64::from(table.count) > MOST_POINTS {
-        return Err(spot.key("count").error(format!("{} is not within [2, {MOST_POINTS}]", table.count)));
+    if table.count < 2 || u64::from(table.count) > left {
+        let what =
+            format!("{} is not within [2, {left}] (sensors have {MOST_POINTS} points at most)", table.count);
+        return Err(spot.key("count").error(what));
     }
     let last = f64::from(table.count - 1);
     Ok((0..table.count).map(|i| from.lerp(to, f64::from(i) / last)).collect())
 }
 
 /// Middles of cells (as EN 12464-1 and CIE 140 lay out their grids), u fastest.
-fn grid(spot: &Spot<'_>, table: &GridTable) -> Result<Vec<DVec3>, Error> {
+fn grid(spot: &Spot<'_>, table: &GridTable, left: u64) -> Result<Vec<DVec3>, Error> {
     let origin = spot.key("origin").point(table.origin)?;
     let (u, v) = (spot.key("u").point(table.u)?, spot.key("v").point(table.v)?);
     let [nu, nv] = table.counts;
     let count = u64::from(nu) * u64::from(nv);
-    if count == 0 || count > MOST_POINTS {
-        let what = format!("{nu} × {nv} cells: from 1 to {MOST_POINTS} together are possible");
+    if count == 0 || count > left {
+        let what =
+            format!("{nu} × {nv} cells: from 1 to {left} are possible (all sensors together: {MOST_POINTS})");
         return Err(spot.key("counts").error(what));
     }
     let share = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n);

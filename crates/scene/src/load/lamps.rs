@@ -1,6 +1,9 @@
 //! Lamps from `[[light]]` tables.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
@@ -9,16 +12,21 @@ use light::Distribution;
 use super::placement::{look_along, rotation};
 use crate::document::Spot;
 use crate::file::{ConeTable, LightTable};
-use crate::{Error, Light, LightSpectrum, Warning, photometry};
+use crate::photometry::{self, Photometry};
+use crate::{Error, Light, LightSpectrum, Warning};
 
 /// Strongest intensity, flux, multiplier that is possible.
 const STRONGEST: f64 = 1e12;
+
+/// Photometric files that were read: a street has hundreds of lamps of one kind.
+pub(crate) type Files = BTreeMap<PathBuf, Photometry>;
 
 /// The lamp of one table.
 pub(crate) fn lamp(
     spot: &Spot<'_>,
     number: usize,
     table: &LightTable,
+    files: &mut Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Light, Error> {
     let name = table.name.clone().unwrap_or_else(|| format!("light-{number}"));
@@ -28,7 +36,7 @@ pub(crate) fn lamp(
     let roll = spot.key("roll").within(table.roll.unwrap_or(0.0), -1e6, 1e6, "degrees")?;
     // Clockwise for who looks along −Z is clockwise about +Z as well: against the mathematical sense.
     let world_from_light = look_along(axis, DVec3::Y) * rotation([0.0, 0.0, -roll]);
-    let (distribution, own_temperature) = distribution(spot, table, warnings)?;
+    let (distribution, own_temperature) = distribution(spot, table, files, warnings)?;
     let given = spot.spectrum(table.temperature, table.rgb, table.spectrum.as_deref())?;
     let own =
         own_temperature.filter(|kelvin| (1000.0..=25000.0).contains(kelvin)).map(LightSpectrum::Temperature);
@@ -56,6 +64,7 @@ fn axis(spot: &Spot<'_>, table: &LightTable, position: DVec3) -> Result<DVec3, E
 fn distribution(
     spot: &Spot<'_>,
     table: &LightTable,
+    files: &mut Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<(Distribution, Option<f64>), Error> {
     let multiplier = spot.key("multiplier").within(table.multiplier.unwrap_or(1.0), 0.0, STRONGEST, "")?;
@@ -67,11 +76,8 @@ fn distribution(
                 .error("brings its own intensities: intensity and cone are not possible beside it"));
         }
         Some(name) => {
-            let spot = spot.key("file");
-            let photometry =
-                photometry::read(&spot.file(name)).map_err(|error| super::missing(&spot, error))?;
-            warnings.extend(photometry.warnings);
-            (photometry.distribution, photometry.flux, photometry.colour_temperature)
+            let photometry = read(&spot.key("file"), name, files, warnings)?;
+            (photometry.distribution.clone(), photometry.flux, photometry.colour_temperature)
         }
         None => {
             spot.exactly_one(&[
@@ -101,6 +107,24 @@ fn distribution(
         return Err(spot.error("is brighter than numbers go"));
     }
     Ok((shape.scaled(factor), temperature))
+}
+
+/// A photometric file, read when it is named first.
+fn read<'f>(
+    spot: &Spot<'_>,
+    name: &Path,
+    files: &'f mut Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<&'f Photometry, Error> {
+    let path = spot.file(name);
+    match files.entry(path) {
+        Entry::Occupied(known) => Ok(known.into_mut()),
+        Entry::Vacant(new) => {
+            let mut photometry = photometry::read(new.key()).map_err(|error| super::missing(spot, error))?;
+            warnings.append(&mut photometry.warnings);
+            Ok(new.insert(photometry))
+        }
+    }
 }
 
 fn cone_of(spot: &Spot<'_>, cone: &ConeTable, candela: f64) -> Result<Distribution, Error> {

@@ -1,5 +1,7 @@
 //! Materials from their tables, and changes to those of models.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec3, Vec3};
 
 use crate::document::Spot;
@@ -14,20 +16,24 @@ pub(crate) fn grey() -> Material {
     Material { base_colour: Vec3::splat(0.5), ..Material::default() }
 }
 
+/// Index of a named material.
+pub(crate) type Names = BTreeMap<String, u32>;
+
 /// Named materials of the file, in order; names are unique and not empty.
-pub(crate) fn named(root: &Spot<'_>, tables: &[MaterialTable]) -> Result<Vec<Material>, Error> {
-    let mut materials: Vec<Material> = Vec::with_capacity(tables.len());
+pub(crate) fn named(root: &Spot<'_>, tables: &[MaterialTable]) -> Result<(Vec<Material>, Names), Error> {
+    let mut materials = Vec::with_capacity(tables.len());
+    let mut names = Names::new();
     for (i, table) in tables.iter().enumerate() {
         let spot = root.key("material").index(i);
         let name = spot.key("name").required(table.name.clone())?;
-        if name.is_empty() || materials.iter().any(|m| m.name == name) {
+        if name.is_empty() || names.insert(name.clone(), i as u32).is_some() {
             return Err(spot.key("name").error(format!("{name:?} is empty or taken: names must differ")));
         }
         let mut material = Material { name, ..grey() };
         change(&spot, table, &mut material)?;
         materials.push(material);
     }
-    Ok(materials)
+    Ok((materials, names))
 }
 
 /// Sets whatever `table` says in `material`; a number given replaces the texture that would vary it.

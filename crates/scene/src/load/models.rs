@@ -1,17 +1,20 @@
 //! Models: read once, placed as often as the file says.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use glam::DAffine3;
 use light::{Instance, Mesh};
 
 use super::draft::Draft;
+use super::materials::Names;
 use super::{inline, materials, placement, punctual};
 use crate::document::Spot;
 use crate::file::{MaterialTable, ModelTable};
 use crate::{Error, Material, gltf};
+
+/// Most placed meshes of a scene: 10⁸ of them take 11 GB.
+const MOST_INSTANCES: usize = 100_000_000;
 
 /// Models that were read, by file and what was changed in their materials.
 #[derive(Default)]
@@ -31,7 +34,7 @@ pub(crate) fn add(
     library: &mut Library,
     spot: &Spot<'_>,
     table: &ModelTable,
-    named: &Range<usize>,
+    names: &Names,
 ) -> Result<(), Error> {
     spot.exactly_one(&[
         ("file", table.file.is_some()),
@@ -54,7 +57,7 @@ pub(crate) fn add(
         let what = "is for model files; inline geometry has the key material, the name of a [[material]]";
         return Err(spot.key("materials").error(what));
     }
-    let material = material_of(draft, spot, table, named)?;
+    let material = material_of(draft, spot, table, names)?;
     if let Some(inline) = inline::geometry(spot, table, &mut draft.warnings)? {
         let world_from_mesh = inline.placed(&placement);
         draft.add_mesh(Mesh { material, ..inline.mesh }, world_from_mesh);
@@ -69,23 +72,17 @@ pub(crate) fn add_file(draft: &mut Draft, path: &Path) -> Result<(), Error> {
 }
 
 /// Index of the material that inline geometry is made of.
-fn material_of(
-    draft: &mut Draft,
-    spot: &Spot<'_>,
-    table: &ModelTable,
-    named: &Range<usize>,
-) -> Result<u32, Error> {
+fn material_of(draft: &mut Draft, spot: &Spot<'_>, table: &ModelTable, names: &Names) -> Result<u32, Error> {
     let Some(name) = &table.material else { return Ok(draft.grey()) };
-    let index = named.clone().find(|i| draft.materials[*i].name == *name);
-    index.map(|i| i as u32).ok_or_else(|| {
-        let known = list(&draft.materials[named.clone()]);
+    names.get(name).copied().ok_or_else(|| {
+        let known = list(names.keys().map(String::as_str));
         spot.key("material").error(format!("{name:?} is unknown; [[material]] tables define {known}"))
     })
 }
 
 /// Names for a message, at most 40 of them.
-fn list(materials: &[Material]) -> String {
-    let mut names: Vec<&str> = materials.iter().map(|m| m.name.as_str()).collect();
+fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    let mut names: Vec<&str> = names.collect();
     names.sort_unstable();
     names.dedup();
     if names.is_empty() {
@@ -133,7 +130,10 @@ fn change(
                 .error("is not possible here: the table's own name says which material"));
         }
         if !found.iter().any(|material| material.name == *name) {
-            return Err(spot.error(format!("the model has no such material; it has {}", list(found))));
+            return Err(spot.error(format!(
+                "the model has no such material; it has {}",
+                list(found.iter().map(|m| m.name.as_str()))
+            )));
         }
         for material in found.iter_mut().filter(|material| material.name == *name) {
             materials::change(&spot, table, material)?;
@@ -159,6 +159,10 @@ fn shelve(draft: &mut Draft, model: gltf::Model, path: &Path) -> Shelved {
 
 /// Places everything of a model.
 fn place(draft: &mut Draft, shelved: &Shelved, placement: &DAffine3) -> Result<(), Error> {
+    if draft.geometry.instances.len() + shelved.instances.len() > MOST_INSTANCES {
+        let what = format!("with this model the scene has more than {MOST_INSTANCES} placed meshes");
+        return Err(Error::File { path: shelved.path.clone(), place: String::new(), what });
+    }
     for instance in &shelved.instances {
         draft.add_instance(instance.mesh, *placement * instance.world_from_mesh);
     }

@@ -11,21 +11,21 @@ use super::*;
 ///
 /// Unrefracted direction (east, north, up).
 fn meeus(julian_ut: f64, delta_t: f64, latitude: f64, longitude: f64) -> DVec3 {
-    let t = (julian_ut + delta_t / 86_400.0 - 2_451_545.0) / 36_525.0;
-    let mean_longitude = 280.46646 + t * (36_000.76983 + t * 0.000_303_2);
-    let anomaly = (357.52911 + t * (35_999.05029 - t * 0.000_153_7)).to_radians();
+    let t = (julian_ut + delta_t / 86400.0 - 2_451_545.0) / 36525.0;
+    let mean_longitude = 280.46646 + t * (36000.76983 + t * 0.000_303_2);
+    let anomaly = (357.52911 + t * (35999.05029 - t * 0.000_153_7)).to_radians();
     let centre = (1.914602 - t * (0.004817 + t * 0.000014)) * anomaly.sin()
         + (0.019993 - 0.000101 * t) * (2.0 * anomaly).sin()
         + 0.000289 * (3.0 * anomaly).sin();
-    let node = (125.04 - 1_934.136 * t).to_radians();
+    let node = (125.04 - 1934.136 * t).to_radians();
 
     // The older book counts centuries from 1900 January 0.5 (JDE 2415020).
     let old = t + 1.0;
     let cosine = |degrees: f64| degrees.to_radians().cos();
-    let perturbations = 0.00134 * cosine(153.23 + 22_518.7541 * old)
-        + 0.00154 * cosine(216.57 + 45_037.5082 * old)
-        + 0.00200 * cosine(312.69 + 32_964.3577 * old)
-        + 0.00179 * (350.74 + 445_267.1142 * old).to_radians().sin()
+    let perturbations = 0.00134 * cosine(153.23 + 22518.7541 * old)
+        + 0.00154 * cosine(216.57 + 45037.5082 * old)
+        + 0.00200 * cosine(312.69 + 32964.3577 * old)
+        + 0.00179 * (350.74 + 445267.1142 * old).to_radians().sin()
         + 0.00178 * (231.19 + 20.20 * old).to_radians().sin();
 
     let sun = (mean_longitude + centre + perturbations - 0.00569 - 0.00478 * node.sin()).to_radians();
@@ -47,7 +47,7 @@ fn meeus(julian_ut: f64, delta_t: f64, latitude: f64, longitude: f64) -> DVec3 {
 }
 
 fn site(julian: f64, latitude: f64, longitude: f64) -> Site {
-    let second = ((julian - 2_440_587.5) * 86_400.0).round() as i64;
+    let second = ((julian - 2_440_587.5) * 86400.0).round() as i64;
     let time = jiff::Timestamp::from_second(second).unwrap();
     Site { latitude, longitude, time, ..Site::default() }
 }
@@ -65,7 +65,7 @@ fn agrees_with_meeus_within_a_hundredth_of_a_degree() {
         let (altitude, azimuth) = site.solar_angles(None).unwrap();
         let ours = site.direction(altitude, azimuth);
 
-        let julian = 2_440_587.5 + site.time.as_second() as f64 / 86_400.0;
+        let julian = 2_440_587.5 + site.time.as_second() as f64 / 86400.0;
         let year = 2000.0 + (julian - 2_451_544.5) / 365.2425;
         let theirs = meeus(julian, delta_t::estimate(year).unwrap(), latitude, longitude);
         let theirs = DVec3::new(theirs.x, theirs.z, -theirs.y);
