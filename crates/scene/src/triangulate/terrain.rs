@@ -1,6 +1,6 @@
 //! Ground from scattered points: Delaunay in plan.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::{DVec2, DVec3, Vec3};
@@ -51,14 +51,15 @@ pub fn terrain(points: &[DVec3]) -> Result<Terrain, Fault> {
         return Err(Fault::NoArea);
     }
     let origin = (0.5 * low + 0.5 * high).round();
-    let mut seen: HashMap<[u64; 2], ()> = HashMap::with_capacity(finite);
+    let mut seen: HashSet<[u64; 2]> = HashSet::with_capacity(finite);
     let (mut nodes, mut positions) = (Vec::with_capacity(finite), Vec::with_capacity(finite));
     for &p in points.iter().filter(usable) {
         let local = p - origin;
+        // The library refuses numbers between 0 and 2⁻¹⁴²; and −0 is 0.
         let settle = |x: f64| if x.abs() < 1e-40 { 0.0 } else { x };
         // North is −Z: (x, −z) is seen from above, so that counter-clockwise there faces up.
         let plan = DVec2::new(settle(local.x), settle(-local.z));
-        if seen.insert([plan.x.to_bits(), plan.y.to_bits()], ()).is_none() {
+        if seen.insert([plan.x.to_bits(), plan.y.to_bits()]) {
             nodes.push(Node { plan, index: positions.len() as u32 });
             positions.push(local.as_vec3());
         }
