@@ -14,7 +14,12 @@ pub(crate) struct Cover {
     pub(crate) share: f64,
     /// Own opacity, once asked for; none = opaque or not yet asked.
     pub(crate) opacity: Option<f64>,
+    /// Its hit, once made for the opacity: index into what the asker keeps, or [`NO_HIT`].
+    pub(crate) hit: u32,
 }
+
+/// No hit has been made yet.
+pub(crate) const NO_HIT: u32 = u32::MAX;
 
 /// An interval of a line in which no face begins or ends: where veils lie one behind the other.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +41,7 @@ pub(crate) struct Pixel {
     stacks: Vec<Stack>,
     order: Vec<u32>,
     cuts: Vec<f64>,
+    veils: Vec<u32>,
 }
 
 impl Pixel {
@@ -55,7 +61,14 @@ impl Pixel {
     fn cover(&mut self, face: u32, x: f64, y: f64, area: f64, merge: bool) -> usize {
         let known = if merge { self.covers.iter().rposition(|cover| cover.face == face) } else { None };
         let index = known.unwrap_or_else(|| {
-            self.covers.push(Cover { face, area: 0.0, moment: [0.0; 2], share: 0.0, opacity: None });
+            self.covers.push(Cover {
+                face,
+                area: 0.0,
+                moment: [0.0; 2],
+                share: 0.0,
+                opacity: None,
+                hit: NO_HIT,
+            });
             self.covers.len() - 1
         });
         let cover = &mut self.covers[index];
@@ -80,6 +93,10 @@ impl Pixel {
         self.cuts.extend(ends.filter(|&x| left < x && x < right));
         self.cuts.sort_unstable_by(f64::total_cmp);
         self.cuts.dedup();
+        let centre = |i: u32| veils[i as usize].nearness(0.5 * (left + right));
+        self.veils.clear();
+        self.veils.extend(0..veils.len() as u32);
+        self.veils.sort_unstable_by(|&a, &b| centre(b).total_cmp(&centre(a)).then(a.cmp(&b)));
         let mut first = 0;
         for i in 1..self.cuts.len() {
             let (l, r) = (self.cuts[i - 1], self.cuts[i]);
@@ -89,12 +106,18 @@ impl Pixel {
             }
             let behind = opaque.get(first).filter(|span| span.x0 <= l);
             let begin = self.order.len();
-            let here = |veil: &&Segment| veil.x0 <= l && veil.x1 >= r;
-            // Indices of the line's veils first, of their covers once they are in order.
-            self.order.extend((0u32..).zip(veils).filter(|(_, veil)| here(veil)).map(|(i, _)| i));
-            self.order[begin..].sort_unstable_by(|&a, &b| {
-                let (a, b) = (&veils[a as usize], &veils[b as usize]);
-                b.nearness(middle).total_cmp(&a.nearness(middle)).then(a.face.cmp(&b.face))
+            // Indices of the line's veils first, of their covers once they are in order. Taken in their order
+            // at the middle of the pixel they are nearly sorted already, which the sort makes use of.
+            for &i in &self.veils {
+                let veil = &veils[i as usize];
+                if veil.x0 <= l && veil.x1 >= r {
+                    self.order.push(i);
+                }
+            }
+            let nearness = |i: u32| veils[i as usize].nearness(middle);
+            self.order[begin..].sort_by(|&a, &b| {
+                let faces = || veils[a as usize].face.cmp(&veils[b as usize].face);
+                nearness(b).total_cmp(&nearness(a)).then_with(faces)
             });
             for k in begin..self.order.len() {
                 let face = veils[self.order[k] as usize].face;
@@ -108,7 +131,7 @@ impl Pixel {
 
     /// Shares out what the veils leave, from the front; `opacity` is asked once for each veil that is
     /// reached by light worth asking for.
-    pub(crate) fn share_out(&mut self, mut opacity: impl FnMut(&Cover) -> f64) {
+    pub(crate) fn share_out(&mut self, mut opacity: impl FnMut(&mut Cover) -> f64) {
         for stack in &self.stacks {
             let mut left = 1.0;
             for &index in &self.order[stack.veils.0 as usize..stack.veils.1 as usize] {

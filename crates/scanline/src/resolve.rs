@@ -79,16 +79,21 @@ impl Scanline {
             })
             .collect();
         let merge = self.knobs.shading == Shading::PerPixel;
+        let mut made = Vec::new();
         for column in columns {
             pixel.clear();
             walks.iter_mut().for_each(|walk| walk.add(column, pixel, merge));
+            made.clear();
             pixel.share_out(|cover| {
                 let hit = self.hit(row, column, cover);
+                cover.hit = made.len() as u32;
+                made.push(hit);
                 self.opacity(&hit)
             });
             let first = pieces.len();
             for cover in pixel.covers.iter().filter(|cover| cover.share > 0.0) {
-                let hit = self.hit(row, column, cover);
+                let hit = made.get(cover.hit as usize).copied();
+                let hit = hit.unwrap_or_else(|| self.hit(row, column, cover));
                 pieces.push(Piece { column, share: cover.share as f32, hit });
             }
             at_most_one(&mut pieces[first..]);
