@@ -65,7 +65,7 @@ impl Document<'_> {
 }
 
 impl Spot<'_> {
-    /// The value under `name`; dots separate nested tables.
+    /// The value under the key `name` of this table.
     pub(crate) fn key(&self, name: &str) -> Self {
         let mut way = self.way.clone();
         way.push(Step::Key(name.to_owned()));

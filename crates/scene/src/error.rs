@@ -18,7 +18,7 @@ pub enum Error {
     File {
         /// The file.
         path: PathBuf,
-        /// Where in it: `line 12`, `line 12, column 3`, `/meshes/0/primitives/1`, `[[light]] 2, key "ies"`; may be empty.
+        /// Where in it: `line 12`, `line 12, column 3`, `/meshes/0/primitives/1`, `line 12, column 3, [[light]] 2, key "file"`; may be empty.
         place: String,
         /// What was given, what is wrong with it and what was possible.
         what: String,

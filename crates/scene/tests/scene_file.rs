@@ -86,6 +86,32 @@ fn inline_models_are_placed_scaled_and_turned() {
     assert_eq!(plane.triangle(0, 0).cross() + plane.triangle(0, 1).cross(), DVec3::Y * 16.0);
 }
 
+/// A face with a notch and a hole, and a slope, both 10⁶ m away: area and heights by hand.
+#[test]
+fn polygons_and_terrain_keep_their_size_far_away() {
+    let far = |x: f64, y: f64, z: f64| format!("[{}, {}, {}]", x + 1e6, y, z - 4e6);
+    let list =
+        |points: &[[f64; 3]]| points.iter().map(|p| far(p[0], p[1], p[2])).collect::<Vec<_>>().join(", ");
+    let outline =
+        list(&[[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, 0.0, -6.0], [4.0, 0.0, -3.0], [0.0, 0.0, -6.0]]);
+    let hole = list(&[[1.0, 0.0, -1.0], [2.0, 0.0, -1.0], [2.0, 0.0, -2.0], [1.0, 0.0, -2.0]]);
+    let slope = list(&[[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [0.0, 0.0, 4.0], [4.0, 1.0, 4.0], [2.0, 0.5, 2.0]]);
+    let scene = scene(&format!(
+        "[[model]]\npolygon = {{ points = [{outline}], holes = [[{hole}]] }}\n[[model]]\nterrain = {{ points = [{slope}] }}\n"
+    ));
+    let count = |instance: usize| {
+        let mesh = &scene.geometry.meshes[scene.geometry.instances[instance].mesh as usize];
+        mesh.triangles.len() as u32
+    };
+    let sum = |instance| {
+        (0..count(instance as usize)).map(|t| scene.geometry.triangle(instance, t).cross()).sum::<DVec3>()
+    };
+    // 8 × 6 less a notch of 8 × 3 / 2 less 1, twice, upwards; all coordinates are whole numbers: exact.
+    assert_eq!(sum(0), DVec3::Y * 2.0 * (48.0 - 12.0 - 1.0));
+    // 4 × 4 in plan, rising by 1 in 4 towards +X: exact in halves and quarters.
+    assert_eq!(sum(1), DVec3::new(-8.0, 32.0, 0.0));
+}
+
 #[test]
 fn materials_are_found_by_name() {
     let text = "[[material]]\nname = 'a'\ncolour = '#ffffff'\nroughness = 0.25\n[[material]]\nname = 'b'\ncolour = [0.1, 0.2, 0.3]\nemission = 100\n\
@@ -434,7 +460,7 @@ fn the_page_names_every_key() {
 #[test]
 fn the_examples_load_without_a_warning() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    for name in ["courtyard.toml", "lamps.toml", "plaza-at-night.toml"] {
+    for name in ["courtyard.toml", "lamps.toml", "plaza-at-night.toml", "slope.toml"] {
         let scene = load(&folder.join(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.warnings, [], "{name}");
         assert!(scene.geometry.triangle_count() > 10 && !scene.sensors.is_empty(), "{name}");
