@@ -3,9 +3,17 @@
 /// How finely and by which rule coverage is measured. [`Knobs::default`] is the measured best buy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Knobs {
-    /// Strips that a pixel row is cut into, 1..=64 (values outside are brought inside). Time grows in
-    /// proportion; the error of an edge's coverage falls about as the power −1 for horizontal edges and
-    /// −2 for slanted ones.
+    /// Strips that a pixel row is cut into, 1..=64 (values outside are brought inside). Finding spans
+    /// takes time in proportion, shading (once per pixel) does not. RMSE of coverage over the pixels at
+    /// edges of 150 triangles of all directions (`tests/coverage.rs`):
+    ///
+    /// | strips | trapezoid | midpoint |
+    /// | --- | --- | --- |
+    /// | 1 | 0.133 | 0.105 |
+    /// | 2 | 0.0404 | 0.0310 |
+    /// | 4 | 0.0085 | 0.0059 |
+    /// | 8 | 0.0023 | 0.0017 |
+    /// | 16 | 0.00062 | 0.00048 |
     pub sub_scanlines: u32,
     /// How areas are summed from the lengths on the sub-scanlines.
     pub rule: Rule,

@@ -9,14 +9,27 @@
 //!
 //! Both sides of faces are seen. Faces with a [`light::Opacity`] let what lies behind through.
 //!
-//! **Cost.** O(n log n) for n faces, however deep they lie; memory 8 B a face that crosses a line and 24 B a corner.
+//! **Cost.** O(n log n) for n faces, however deep they lie. Memory: 24 B a corner and 8 B a face that crosses a line,
+//! beside the scene itself; working memory is that of one row. Processor seconds for one picture of 1920 × 1080,
+//! four sub-scanlines, hits included (`cargo bench`, AMD EPYC of family 26 without wider instructions than
+//! SSE2, 2026-11; two threads halve them while the machine is otherwise idle):
+//!
+//! | scene | faces | set-up | picture | memory beside the scene |
+//! | --- | --- | --- | --- | --- |
+//! | terrain | 10⁴ | 0.00 | 0.19 | 2 MiB |
+//! | terrain | 10⁵ | 0.00 | 0.30 | 2 MiB |
+//! | terrain | 10⁶ | 0.07 | 0.67 | 21 MiB |
+//! | terrain | 10⁷ | 0.69 | 2.2 | 195 MiB |
+//! | crossing faces as large as the picture | 3 · 10⁴ | 0.01 | 5.0 | |
+//! | leaves with cut-out textures, some 12 deep | 10⁶ | 0.12 | 9.1 | |
 //!
 //! **Leaves out.** Shading, shadows, curved solids, lens and motion blur.
 //!
 //! **Where it is wrong.** Vertically, coverage is sampled at the sub-scanlines: a horizontal edge is off by
 //! up to half a strip, and what fits between two lines is not seen at all. Veils that pass through each
 //! other are ordered by their nearness at the middle of each interval between face borders within a pixel.
-//! Of what lies behind veils that let less than 1/2048 through, nothing is shown. Faces that lie in one
+//! A veil that, with those before it, lets less than 1/2048 through is taken for opaque. A veil's opacity is
+//! read once for a pixel, at the centroid of what shows of it. Faces that lie in one
 //! plane, as far as f64 can tell, show the first of them in the order of (instance, triangle).
 //!
 //! ```

@@ -30,8 +30,8 @@ struct Stack {
     opaque: Option<u32>,
 }
 
-/// A share of light below which what lies behind further veils is left out (the sum of shares of a pixel
-/// then lacks up to this, as if background showed). An eighth of the step of an 8-bit display at white.
+/// Where veils let less than this through, the last of them is taken for opaque: what lies behind (which
+/// may be a far brighter sky) is not let in, and no share is lost. An eighth of a step of an 8-bit display.
 pub(crate) const NEGLIGIBLE: f64 = 1.0 / 2048.0;
 
 /// What is known of the pixel so far. Emptied by [`Pixel::clear`], memory kept.
@@ -141,13 +141,16 @@ impl Pixel {
                     None => opacity(cover).clamp(0.0, 1.0),
                 };
                 cover.opacity = Some(own);
-                cover.share += stack.area * left * own;
-                left *= 1.0 - own;
-                if left < NEGLIGIBLE {
+                let through = left * (1.0 - own);
+                if through < NEGLIGIBLE {
+                    cover.share += stack.area * left;
+                    left = 0.0;
                     break;
                 }
+                cover.share += stack.area * left * own;
+                left = through;
             }
-            if left >= NEGLIGIBLE
+            if left > 0.0
                 && let Some(index) = stack.opaque
             {
                 self.covers[index as usize].share += stack.area * left;

@@ -163,6 +163,20 @@ fn a_veil_shares_with_what_lies_behind() {
 }
 
 #[test]
+fn no_background_comes_through_many_veils() {
+    // 0.4¹⁰ = 10⁻⁴ is below what is followed: the last veil reached takes the rest.
+    let veil = |z: i16| Mesh {
+        opacity: Some(Arc::new(Opacity { texture: None, factor: 0.6, cutoff: None })),
+        ..wall(1, -f32::from(z), |_, _| 0.0)
+    };
+    let at = |mesh| Instance { mesh, world_from_mesh: DAffine3::IDENTITY };
+    let geometry = Geometry { meshes: (2..12).map(veil).collect(), instances: (0..10).map(at).collect() };
+    for total in totals(&stage(geometry, ahead(8), Knobs::default()), 8, 8) {
+        assert!((1.0 - total).abs() <= ulps(10), "{total}");
+    }
+}
+
+#[test]
 fn an_empty_scene_shows_nothing() {
     assert!(picture(&stage(Geometry::default(), ahead(8), Knobs::default()), 0..99, 0..99).is_empty());
 }
@@ -179,6 +193,31 @@ fn coplanar_faces_show_the_first() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// Share of a veil = own opacity · Π (1 − opacity) of those nearer, whatever order they are given in.
+    #[test]
+    fn veils_are_layered_by_depth(
+        order in Just([3u8, 5, 7, 9, 11]).prop_shuffle(),
+        factors in prop::array::uniform5(0f32..0.7),
+    ) {
+        let mesh = |(&z, &factor): (&u8, &f32)| Mesh {
+            opacity: Some(Arc::new(Opacity { texture: None, factor, cutoff: None })),
+            ..wall(1, -f32::from(z), |_, _| 0.0)
+        };
+        let at = |mesh| Instance { mesh, world_from_mesh: DAffine3::IDENTITY };
+        let meshes = order.iter().zip(&factors).map(mesh).collect();
+        let stage = stage(Geometry { meshes, instances: (0..5).map(at).collect() }, ahead(4), Knobs::default());
+        let mut shares = [0.0; 5];
+        for (_, piece) in picture(&stage, 1..2, 1..2) {
+            shares[piece.hit.instance as usize] += f64::from(piece.share);
+        }
+        for i in 0..5 {
+            let nearer = (0..5).filter(|&k| order[k] < order[i]);
+            let through: f64 = nearer.map(|k| 1.0 - f64::from(factors[k])).product();
+            // 0.3⁵ is above what is followed; a share is rounded to f32 once, twice where faces meet.
+            prop_assert!((shares[i] - through * f64::from(factors[i])).abs() <= ulps(2));
+        }
+    }
 
     #[test]
     fn shares_never_exceed_one(
