@@ -30,9 +30,9 @@ pub(crate) struct MaterialTable {
     pub(crate) ior: Option<f64>,
     /// What is left of white light after `attenuation_distance` inside a transparent body.
     pub(crate) attenuation_colour: Option<Colour>,
-    /// \[m\], > 0; makes the thing a body filled with a medium instead of a thin pane.
+    /// [m], > 0; makes the thing a body filled with a medium instead of a thin pane.
     pub(crate) attenuation_distance: Option<f64>,
-    /// Luminance \[cd/m²\], one number or per linear sRGB channel. Default 0.
+    /// Luminance [cd/m²], one number or per linear sRGB channel. Default 0.
     pub(crate) emission: Option<OneOrThree>,
     /// Share of light transmitted diffusely (leaves, paper). Default 0.
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -60,9 +60,9 @@ pub(crate) struct ModelTable {
     pub(crate) terrain: Option<TerrainTable>,
     /// Name of a `[[material]]`; for inline geometry only. Default: a grey of 0.5.
     pub(crate) material: Option<String>,
-    /// Where its origin goes \[m\]. Default \[0, 0, 0\].
+    /// Where its origin goes [m]. Default [0, 0, 0].
     pub(crate) position: Option<[f64; 3]>,
-    /// Degrees: one number turns about the vertical; \[x, y, z\] turns first about z, then x, then y. Default 0.
+    /// Degrees: one number turns about the vertical; [x, y, z] turns first about z, then x, then y. Default 0.
     pub(crate) rotation: Option<OneOrThree>,
     /// Factor on its size, or one for each axis; not 0. Default 1.
     pub(crate) scale: Option<OneOrThree>,
@@ -74,7 +74,7 @@ pub(crate) struct ModelTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxTable {
-    /// Along x, y (height) and z \[m\], > 0.
+    /// Along x, y (height) and z [m], > 0.
     pub(crate) size: [f64; 3],
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct BoxTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneTable {
-    /// Along x and z \[m\], > 0.
+    /// Along x and z [m], > 0.
     pub(crate) size: [f64; 2],
 }
 
@@ -90,7 +90,7 @@ pub(crate) struct PlaneTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PolygonTable {
-    /// Corners \[m\], counter-clockwise seen from its front, in one plane.
+    /// Corners [m], counter-clockwise seen from its front, in one plane.
     pub(crate) points: Vec<[f64; 3]>,
     /// Corners of holes.
     #[serde(default)]
@@ -101,9 +101,9 @@ pub(crate) struct PolygonTable {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct TerrainTable {
-    /// A text file, relative to this file: east, north and height of a point \[m\] on each line.
+    /// A text file, relative to this file: east, north and height of a point [m] on each line.
     pub(crate) file: Option<PathBuf>,
-    /// The points \[x, y (height), z\] \[m\].
+    /// The points [x, y (height), z] [m].
     pub(crate) points: Option<Vec<[f64; 3]>>,
 }
 
@@ -113,11 +113,11 @@ pub(crate) struct TerrainTable {
 pub(crate) struct LightTable {
     /// Default `light-1`, `light-2`, …
     pub(crate) name: Option<String>,
-    /// Where \[m\]. Required.
+    /// Where [m]. Required.
     pub(crate) position: Option<[f64; 3]>,
-    /// Luminous intensity \[cd\]: in every direction, or along the axis of a `cone`.
+    /// Luminous intensity [cd]: in every direction, or along the axis of a `cone`.
     pub(crate) intensity: Option<f64>,
-    /// Luminous flux \[lm\].
+    /// Luminous flux [lm].
     pub(crate) flux: Option<f64>,
     /// Photometry: an IES (LM-63) or EULUMDAT file, relative to this file.
     pub(crate) file: Option<PathBuf>,
@@ -125,18 +125,18 @@ pub(crate) struct LightTable {
     pub(crate) multiplier: Option<f64>,
     /// Confines the light to a cone.
     pub(crate) cone: Option<ConeTable>,
-    /// A point that the axis goes through \[m\].
+    /// A point that the axis goes through [m].
     pub(crate) aim: Option<[f64; 3]>,
-    /// Instead of `aim`: where the axis goes. Default \[0, −1, 0\], straight down.
+    /// Instead of `aim`: where the axis goes. Default [0, −1, 0], straight down.
     pub(crate) direction: Option<[f64; 3]>,
     /// Degrees by which the lamp is turned about its axis, clockwise for who looks along it. Default 0.
     pub(crate) roll: Option<f64>,
-    /// Correlated colour temperature \[K\].
+    /// Correlated colour temperature [K].
     #[schemars(range(min = 1000.0, max = 25000.0))]
     pub(crate) temperature: Option<f64>,
     /// Colour in linear sRGB, only its hue and saturation count.
     pub(crate) rgb: Option<[f64; 3]>,
-    /// Relative power: \[\[wavelength in nm, power\], …\], rising.
+    /// Relative power: [[wavelength in nm, power], …], rising.
     pub(crate) spectrum: Option<Vec<[f64; 2]>>,
 }
 
@@ -144,9 +144,9 @@ pub(crate) struct LightTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConeTable {
-    /// Angle from the axis up to which the intensity is whole \[°\]. Default 0.
+    /// Angle from the axis up to which the intensity is whole [°]. Default 0.
     #[serde(default)]
     pub(crate) inner: f64,
-    /// Angle from the axis at which it has faded to 0 \[°\], within (inner, 90\].
+    /// Angle from the axis at which it has faded to 0 [°], within (inner, 90].
     pub(crate) outer: f64,
 }

@@ -15,7 +15,7 @@ pub(crate) struct SiteTable {
     /// Degrees, EAST positive. Required.
     #[schemars(range(min = -180.0, max = 180.0))]
     pub(crate) longitude: Option<f64>,
-    /// Height above the sea \[m\]. Default 0.
+    /// Height above the sea [m]. Default 0.
     #[schemars(range(min = -500.0, max = 9000.0))]
     pub(crate) elevation: Option<f64>,
     /// ISO-8601 with offset: `2026-06-21T10:00:00+09:00`. With it, the sun shines by default.
@@ -35,14 +35,14 @@ pub(crate) struct SunTable {
     pub(crate) altitude: Option<f64>,
     /// Degrees clockwise from true north.
     pub(crate) azimuth: Option<f64>,
-    /// Illuminance facing the sun \[lx\]. Default: what the atmosphere lets through.
+    /// Illuminance facing the sun [lx]. Default: what the atmosphere lets through.
     pub(crate) illuminance: Option<f64>,
-    /// Correlated colour temperature \[K\].
+    /// Correlated colour temperature [K].
     #[schemars(range(min = 1000.0, max = 25000.0))]
     pub(crate) temperature: Option<f64>,
     /// Colour in linear sRGB, only its hue and saturation count.
     pub(crate) rgb: Option<[f64; 3]>,
-    /// Relative power: \[\[wavelength in nm, power\], …\], rising.
+    /// Relative power: [[wavelength in nm, power], …], rising.
     pub(crate) spectrum: Option<Vec<[f64; 2]>>,
     /// Of the disc, degrees; 0 = a point. Default 0.533.
     #[schemars(range(min = 0.0, max = 10.0))]
@@ -57,7 +57,7 @@ pub(crate) struct SkyTable {
     pub(crate) off: bool,
     /// `clear`, `overcast`, `uniform`, …: `keikan plan` lists them. Default `clear`.
     pub(crate) model: Option<String>,
-    /// Horizontal diffuse illuminance \[lx\]. Default: the model's own.
+    /// Horizontal diffuse illuminance [lx]. Default: the model's own.
     pub(crate) illuminance: Option<f64>,
     /// Further keys are handed to the model as settings `sky.KEY`.
     #[serde(flatten)]
@@ -70,23 +70,23 @@ pub(crate) struct SkyTable {
 pub(crate) struct CameraTable {
     /// Default `camera-1`, `camera-2`, …
     pub(crate) name: Option<String>,
-    /// Where \[m\]. Required.
+    /// Where [m]. Required.
     pub(crate) position: Option<[f64; 3]>,
-    /// The point in the middle of the picture \[m\].
+    /// The point in the middle of the picture [m].
     pub(crate) target: Option<[f64; 3]>,
     /// Instead of `target`: where it looks.
     pub(crate) direction: Option<[f64; 3]>,
-    /// What is up in the picture. Default \[0, 1, 0\]; looking straight up or down: \[0, 0, −1\].
+    /// What is up in the picture. Default [0, 1, 0]; looking straight up or down: [0, 0, −1].
     pub(crate) up: Option<[f64; 3]>,
     /// Vertical, degrees. Default 40.
     pub(crate) field_of_view: Option<f64>,
-    /// \[mm\] on a frame of 36 × 24 mm: 28 sees 46.4° vertically.
+    /// [mm] on a frame of 36 × 24 mm: 28 sees 46.4° vertically.
     pub(crate) focal_length: Option<f64>,
-    /// Parallel projection: height of the picture in the scene \[m\].
+    /// Parallel projection: height of the picture in the scene [m].
     pub(crate) orthographic: Option<f64>,
     /// Width / height. Default: that of the picture asked for.
     pub(crate) aspect: Option<f64>,
-    /// Nothing nearer than this is seen \[m\]. Default 0.01.
+    /// Nothing nearer than this is seen [m]. Default 0.01.
     pub(crate) near: Option<f64>,
 }
 
@@ -96,13 +96,13 @@ pub(crate) struct CameraTable {
 pub(crate) struct SensorTable {
     /// Default `sensor-1`, `sensor-2`, …
     pub(crate) name: Option<String>,
-    /// The points \[m\].
+    /// The points [m].
     pub(crate) points: Option<Vec<[f64; 3]>>,
     /// Equally spaced points, both ends included.
     pub(crate) line: Option<LineTable>,
     /// The middles of the cells of a parallelogram.
     pub(crate) grid: Option<GridTable>,
-    /// Which way the receiving plane faces. Default \[0, 1, 0\], upwards.
+    /// Which way the receiving plane faces. Default [0, 1, 0], upwards.
     pub(crate) normal: Option<[f64; 3]>,
 }
 
@@ -110,9 +110,9 @@ pub(crate) struct SensorTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LineTable {
-    /// First point \[m\].
+    /// First point [m].
     pub(crate) from: [f64; 3],
-    /// Last point \[m\].
+    /// Last point [m].
     pub(crate) to: [f64; 3],
     /// How many, ≥ 2.
     pub(crate) count: u32,
@@ -122,11 +122,11 @@ pub(crate) struct LineTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GridTable {
-    /// A corner \[m\].
+    /// A corner [m].
     pub(crate) origin: [f64; 3],
-    /// Along the whole first side \[m\].
+    /// Along the whole first side [m].
     pub(crate) u: [f64; 3],
-    /// Along the whole second side \[m\].
+    /// Along the whole second side [m].
     pub(crate) v: [f64; 3],
     /// Cells along u and v, ≥ 1.
     pub(crate) counts: [u32; 2],
