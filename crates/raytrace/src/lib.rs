@@ -51,6 +51,7 @@ mod walk;
 mod world;
 
 pub use quality::Quality;
+pub use query::Met;
 pub use rays::Rays;
 pub use reference::BruteForce;
 pub use world::{Stats, World};

@@ -4,27 +4,28 @@ use glam::{DVec2, DVec3};
 use light::{Geometry, Hit, Mesh, Nearest, Occlude, Ray, Spectrum, rounding::UNIT};
 
 use crate::{
+    collapse::WIDTH,
     lanes::Lanes,
     shot::Shot,
     tree::{Faces, Name},
-    triangle::{Crossing, candidates, cross},
+    triangle::{self, Crossing, candidates, cross},
     walk::{Visit, walk},
     world::World,
 };
 
 /// A triangle on the way of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Met {
+pub struct Met {
     /// Distance along the ray \[m\].
-    pub(crate) t: f64,
+    pub t: f64,
     /// Index into [`Geometry::instances`].
-    pub(crate) instance: u32,
+    pub instance: u32,
     /// Index within the mesh.
-    pub(crate) triangle: u32,
-    /// Weights of the second and third corner.
-    pub(crate) weights: DVec2,
+    pub triangle: u32,
+    /// Weights of the second and third corner, to f32 accuracy.
+    pub weights: DVec2,
     /// Whether the mesh has an opacity of its own.
-    pub(crate) alpha: bool,
+    pub alpha: bool,
 }
 
 impl Met {
@@ -50,6 +51,9 @@ pub(crate) fn opacity(mesh: &Mesh, triangle: u32, weights: DVec2) -> f32 {
 
 /// Takes the triangles that a ray meets, in no particular order.
 pub(crate) trait Ask {
+    /// Whether nearer ones are better taken first.
+    const ORDERED: bool;
+
     /// One triangle within the ray's ends. `reach`, how far anything is still of interest, may be lowered.
     /// True ends the search.
     fn meet(&mut self, met: Met, geometry: &Geometry, reach: &mut f32) -> bool;
@@ -72,9 +76,12 @@ impl World {
             Some(reach) => reach,
             None => return true,
         };
+        if self.placements.is_empty() {
+            return false;
+        }
         let Some(shot) = Shot::new(origin, direction, self.tops.reach) else { return false };
-        let mut through = Through { world: self, line, floor, length, ask };
-        walk(&self.tops, &shot, floor, reach, &mut through)
+        let (mut reach, mut through) = (reach, Through { world: self, line, floor, length, ask });
+        walk(&self.tops, &shot, floor, &mut reach, &mut through)
     }
 }
 
@@ -90,70 +97,82 @@ struct Within<'a, A> {
 
 impl<A: Ask> Within<'_, A> {
     /// How far anything is of interest afterwards; none when the search is over.
+    #[inline(always)]
     fn walk(&mut self, shot: Shot, floor: f32, reach: f32) -> Option<f32> {
-        let mut looking = Looking { within: self, shot: &shot, reach };
-        let tree = &looking.within.faces.tree;
-        match walk(tree, &shot, floor, reach, &mut looking) {
-            true => None,
-            false => Some(looking.reach),
-        }
+        let tree = &self.faces.tree;
+        let mut reach = reach;
+        let over = if shot.origin_low == [0.0; 3] {
+            walk(tree, &shot, floor, &mut reach, &mut Looking::<_, false> { within: self, shot: &shot })
+        } else {
+            walk(tree, &shot, floor, &mut reach, &mut Looking::<_, true> { within: self, shot: &shot })
+        };
+        if over { None } else { Some(reach) }
     }
 
     /// Where the line crosses, if it does so between the ray's ends.
     ///
-    /// Corners in world coordinates have been rounded to f32 (by up to u of each coordinate), and that moves
-    /// the plane by up to u · `sway` / |normal|. Where an end of the ray is that close to the plane, the triangle
-    /// itself decides, in f64: a ray that has left a surface ([`light::Place::leave`]) is beyond it, never before.
-    fn within_ends(&self, crossing: &Crossing, shot: &Shot, name: Name) -> Option<f64> {
+    /// Corners in world coordinates have been rounded to f32, each coordinate by up to u of itself, and that
+    /// moves the plane by up to u · reach · Σ|normal| (in units of normal · displacement). Where an end of the ray
+    /// is that close to the plane, the triangle itself decides, in f64: a ray that has left a surface
+    /// ([`light::Place::leave`]) is beyond it, never before.
+    #[inline(always)]
+    fn between_ends(&self, crossing: &Crossing, leaf: u32, lane: usize, shot: &Shot) -> Option<f64> {
         let length = f64::from(self.length);
         let mut t = crossing.t;
-        if self.instance.is_none() {
-            let start = crossing.normal.dot(crossing.corner);
-            let speed = crossing.normal.dot(shot.direction);
-            // 1 % more for the rounding of this very bound.
-            let doubt = 1.01 * f64::from(UNIT) * crossing.sway;
-            let doubtful =
-                start.abs() <= doubt || (length.is_finite() && (start - speed * length).abs() <= doubt);
-            if doubtful {
-                let exact = self.world.geometry.triangle(name.instance, name.triangle);
-                let normal = exact.cross();
-                let exact = normal.dot(exact.0[0] - shot.origin) / normal.dot(shot.direction);
-                // A ray within the plane: the crossing of the rounded triangle is as good as any.
-                t = if exact.is_finite() { exact } else { t };
+        // 1 % more for the rounding of this very bound.
+        let unit = 1.01 * f64::from(UNIT) * crossing.sway;
+        let end =
+            if self.length.is_finite() { crossing.start - crossing.speed * length } else { f64::INFINITY };
+        let nearest = crossing.start.abs().min(end.abs());
+        if self.instance.is_none() && nearest <= unit * f64::from(self.faces.tree.reach) {
+            let reach = triangle::reach(&self.faces.packets[leaf as usize], lane);
+            if nearest <= unit * reach {
+                t = self.exact(self.faces.names[leaf as usize * WIDTH + lane], shot).unwrap_or(t);
             }
         }
         (t > 0.0 && t < length).then_some(t)
     }
+
+    /// Where the line crosses the plane of the triangle before it was rounded; none for a ray within it.
+    #[cold]
+    fn exact(&self, name: Name, shot: &Shot) -> Option<f64> {
+        let face = self.world.geometry.triangle(name.instance, name.triangle);
+        let normal = face.cross();
+        let t = normal.dot(face.0[0] - shot.origin) / normal.dot(shot.direction);
+        t.is_finite().then_some(t)
+    }
 }
 
 /// A walk through one hierarchy.
-struct Looking<'a, 'b, A> {
+struct Looking<'a, 'b, A, const SPLIT: bool> {
     within: &'b mut Within<'a, A>,
     shot: &'b Shot,
-    reach: f32,
 }
 
-impl<A: Ask> Visit for Looking<'_, '_, A> {
+impl<A: Ask, const SPLIT: bool> Visit for Looking<'_, '_, A, SPLIT> {
+    const ORDERED: bool = A::ORDERED;
+
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, leaf: u32, reach: &mut f32) -> bool {
         let packet = &self.within.faces.packets[leaf as usize];
-        let mut mask = candidates::<L>(packet, self.shot);
+        let (mut mask, undecided) = candidates::<L, SPLIT>(packet, self.shot);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
-            let Some(crossing) = cross(packet, lane, self.shot) else { continue };
-            let name = self.within.faces.names[leaf as usize * 8 + lane];
-            let Some(t) = self.within.within_ends(&crossing, self.shot, name) else { continue };
+            let Some(crossing) = cross(packet, lane, undecided >> lane & 1 == 1, self.shot) else { continue };
+            let Some(t) = self.within.between_ends(&crossing, leaf, lane, self.shot) else { continue };
+            if t > f64::from(*reach) {
+                continue;
+            }
+            let name = self.within.faces.names[leaf as usize * WIDTH + lane];
             let met = Met {
                 t,
                 instance: self.within.instance.unwrap_or(name.instance),
                 triangle: name.triangle,
-                weights: DVec2::from(crossing.weights),
+                weights: DVec2::from(triangle::weights(packet, lane, self.shot)),
                 alpha: name.alpha,
             };
-            let over = self.within.ask.meet(met, &self.within.world.geometry, reach);
-            self.reach = *reach;
-            if over {
+            if self.within.ask.meet(met, &self.within.world.geometry, reach) {
                 return true;
             }
         }
@@ -171,6 +190,8 @@ struct Through<'a, A> {
 }
 
 impl<A: Ask> Visit for Through<'_, A> {
+    const ORDERED: bool = A::ORDERED;
+
     fn leaf<L: Lanes>(&mut self, leaf: u32, reach: &mut f32) -> bool {
         let placement = &self.world.placements[leaf as usize];
         let faces = &self.world.models[placement.model as usize];
@@ -207,6 +228,8 @@ impl First {
 }
 
 impl Ask for First {
+    const ORDERED: bool = true;
+
     #[inline(always)]
     fn meet(&mut self, met: Met, geometry: &Geometry, reach: &mut f32) -> bool {
         let first = self.found.is_none_or(|found| met.key() < found.key());
@@ -232,6 +255,8 @@ pub(crate) struct Shadow {
 }
 
 impl Ask for Shadow {
+    const ORDERED: bool = false;
+
     #[inline(always)]
     fn meet(&mut self, met: Met, geometry: &Geometry, _: &mut f32) -> bool {
         if met.alpha {
@@ -258,11 +283,18 @@ pub(crate) fn weights(geometry: &Geometry, met: &Met, line: (DVec3, DVec3)) -> D
     exact.filter(near).unwrap_or(met.weights)
 }
 
-impl Nearest for World {
-    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+impl World {
+    /// Which triangle `ray` meets first, as [`Nearest`] has it, without all that shading wants to know.
+    pub fn first(&self, ray: &Ray) -> Option<Met> {
         let mut first = First::new(0.5);
         self.ask(line(ray), 0.0, ray.length, &mut first);
-        let met = first.found?;
+        first.found
+    }
+}
+
+impl Nearest for World {
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let met = self.first(ray)?;
         let at = weights(&self.geometry, &met, line(ray));
         Some(self.geometry.hit(met.instance, met.triangle, at, ray, 0.0))
     }

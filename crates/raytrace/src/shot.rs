@@ -71,4 +71,16 @@ impl Shot {
             shear: [toward[axes[0]] / toward[last], toward[axes[1]] / toward[last]],
         })
     }
+
+    /// Origin along the i-th of `axes`, its high part.
+    #[inline(always)]
+    pub(crate) fn high(&self, i: usize) -> f32 {
+        self.origin_high[self.axes[i]]
+    }
+
+    /// Origin along the i-th of `axes`, its low part.
+    #[inline(always)]
+    pub(crate) fn low(&self, i: usize) -> f32 {
+        self.origin_low[self.axes[i]]
+    }
 }

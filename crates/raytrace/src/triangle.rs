@@ -21,79 +21,122 @@ use crate::{collapse::WIDTH, lanes::Lanes, shot::Shot, tree::Packet};
 pub(crate) struct Crossing {
     /// Distance along the ray, in lengths of its direction.
     pub(crate) t: f64,
-    /// Weights of the second and third corner, within the triangle.
-    pub(crate) weights: [f64; 2],
-    /// Twice the area times the normal.
-    pub(crate) normal: DVec3,
-    /// First corner, relative to the ray's origin.
-    pub(crate) corner: DVec3,
-    /// Σ |normal| · largest |coordinate|: by how much of this times u the plane shifts (in units of
-    /// `normal · displacement`) when each coordinate of each corner is off by u of itself.
+    /// normal · (a corner − origin), where `normal` is twice the area times the unit normal.
+    pub(crate) start: f64,
+    /// normal · direction.
+    pub(crate) speed: f64,
+    /// Σ |normal|.
     pub(crate) sway: f64,
 }
 
-/// One bit per lane whose triangle the line may meet: all edge functions of one sign, or zero.
-#[inline(always)]
-pub(crate) fn candidates<L: Lanes>(packet: &Packet, shot: &Shot) -> u32 {
-    let [x, y, z] = shot.axes;
-    let shear = shot.shear.map(L::splat);
-    let high = shot.axes.map(|axis| L::splat(shot.origin_high[axis]));
-    let low = shot.axes.map(|axis| L::splat(shot.origin_low[axis]));
-    let sheared = |corner: &[[f32; WIDTH]; 3]| {
-        let depth = L::load(&corner[z]).sub(high[2]).sub(low[2]);
-        let across =
-            |axis: usize, i: usize| L::load(&corner[axis]).sub(high[i]).sub(low[i]).sub(shear[i].mul(depth));
-        (across(x, 0), across(y, 1))
-    };
-    let ((ax, ay), (bx, by), (cx, cy)) =
-        (sheared(&packet.corners[0]), sheared(&packet.corners[1]), sheared(&packet.corners[2]));
-    let u = cx.mul(by).sub(cy.mul(bx));
-    let v = ax.mul(cy).sub(ay.mul(cx));
-    let w = bx.mul(ay).sub(by.mul(ax));
-    let zero = L::splat(0.0);
-    zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero)
+/// A corner of a lane.
+fn corner(packet: &Packet, lane: usize, corner: usize) -> DVec3 {
+    DVec3::from([0, 1, 2].map(|axis| f64::from(packet.corners[corner][axis][lane])))
 }
 
-/// The exact answer for one candidate lane; none when the zeros turn out to be of different signs, or the
-/// triangle is seen exactly edge-on.
-pub(crate) fn cross(packet: &Packet, lane: usize, shot: &Shot) -> Option<Crossing> {
-    let at = |corner: usize, axis: usize| packet.corners[corner][axis][lane];
+/// Largest |coordinate| of a lane's corners.
+pub(crate) fn reach(packet: &Packet, lane: usize) -> f64 {
+    (0..3).fold(0.0f64, |reach, i| reach.max(corner(packet, lane, i).abs().max_element()))
+}
+
+/// U, V, W of a lane, each with the right sign, from the very operations of [`candidates`]: products of
+/// f32 are exact in f64, and a difference of exact numbers has the right sign.
+fn edges(packet: &Packet, lane: usize, shot: &Shot) -> [f64; 3] {
     let [x, y, z] = shot.axes;
-    // The very operations of `candidates`, so that the two agree.
     let sheared = |corner: usize| {
-        let moved = |axis: usize| at(corner, axis) - shot.origin_high[axis] - shot.origin_low[axis];
+        let moved =
+            |axis: usize| packet.corners[corner][axis][lane] - shot.origin_high[axis] - shot.origin_low[axis];
         let depth = moved(z);
         [moved(x) - shot.shear[0] * depth, moved(y) - shot.shear[1] * depth].map(f64::from)
     };
     let [a, b, c] = [sheared(0), sheared(1), sheared(2)];
-    // In f64 throughout: products of f32 are exact, and the difference of two exact numbers has the right sign.
-    let u = c[0] * b[1] - c[1] * b[0];
-    let v = a[0] * c[1] - a[1] * c[0];
-    let w = b[0] * a[1] - b[1] * a[0];
+    [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]]
+}
+
+/// Weights of a lane's second and third corner where the line meets it: within the triangle, to f32 accuracy.
+pub(crate) fn weights(packet: &Packet, lane: usize, shot: &Shot) -> [f64; 2] {
+    let [u, v, w] = edges(packet, lane, shot);
+    [v / (u + v + w), w / (u + v + w)]
+}
+
+/// The coordinates in which the ray is the last axis.
+struct Frame<L> {
+    shear: [L; 2],
+    high: [L; 3],
+    low: [L; 3],
+}
+
+// Functions, not closures: those would be compiled without AVX2 and called for every operation.
+impl<L: Lanes> Frame<L> {
+    #[inline(always)]
+    fn moved<const SPLIT: bool>(&self, corner: &[f32; WIDTH], i: usize) -> L {
+        let moved = L::load(corner).sub(self.high[i]);
+        if SPLIT { moved.sub(self.low[i]) } else { moved }
+    }
+
+    #[inline(always)]
+    fn sheared<const SPLIT: bool>(&self, corner: &[[f32; WIDTH]; 3], [x, y, z]: [usize; 3]) -> (L, L) {
+        let depth = self.moved::<SPLIT>(&corner[z], 2);
+        (
+            self.moved::<SPLIT>(&corner[x], 0).sub(self.shear[0].mul(depth)),
+            self.moved::<SPLIT>(&corner[y], 1).sub(self.shear[1].mul(depth)),
+        )
+    }
+}
+
+/// One bit per lane whose triangle the line may meet: all edge functions of one sign, or zero.
+///
+/// The second mask has those with a zero, which must be looked at again. `SPLIT` says whether the origin has a low part: subtracting 0 changes nothing.
+#[inline(always)]
+pub(crate) fn candidates<L: Lanes, const SPLIT: bool>(packet: &Packet, shot: &Shot) -> (u32, u32) {
+    let frame = Frame::<L> {
+        shear: [L::splat(shot.shear[0]), L::splat(shot.shear[1])],
+        high: [L::splat(shot.high(0)), L::splat(shot.high(1)), L::splat(shot.high(2))],
+        low: [L::splat(shot.low(0)), L::splat(shot.low(1)), L::splat(shot.low(2))],
+    };
+    let (ax, ay) = frame.sheared::<SPLIT>(&packet.corners[0], shot.axes);
+    let (bx, by) = frame.sheared::<SPLIT>(&packet.corners[1], shot.axes);
+    let (cx, cy) = frame.sheared::<SPLIT>(&packet.corners[2], shot.axes);
+    let u = cx.mul(by).sub(cy.mul(bx));
+    let v = ax.mul(cy).sub(ay.mul(cx));
+    let w = bx.mul(ay).sub(by.mul(ax));
+    let zero = L::splat(0.0);
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let inside = zero.le(least) | most.le(zero);
+    // Of numbers of one sign, a zero is the least or the most.
+    let zeros = (zero.le(least) & least.le(zero)) | (zero.le(most) & most.le(zero));
+    (inside, inside & zeros)
+}
+
+/// The distance for one candidate lane; none when zeros turn out to be of different signs, or when the
+/// triangle is seen exactly edge-on.
+#[inline(always)]
+pub(crate) fn cross(packet: &Packet, lane: usize, undecided: bool, shot: &Shot) -> Option<Crossing> {
+    let from = [0, 1, 2].map(|i| corner(packet, lane, i) - shot.origin);
+    let normal = (from[1] - from[0]).cross(from[2] - from[0]);
+    let (start, speed) = (normal.dot(from[0]), normal.dot(shot.direction));
+    let sway = normal.abs().element_sum();
+    let mut t = start / speed;
+    // Within 0.6° of edge-on, or with an edge through the ray, the signs and the corners decide.
+    let grazing = speed * speed <= 1e-4 * normal.length_squared() * shot.direction.length_squared();
+    if grazing || undecided {
+        t = decide(edges(packet, lane, shot), from, shot.direction, t)?;
+    }
+    Some(Crossing { t, start, speed, sway })
+}
+
+/// Whether the line is within the triangle after all, and then its distance, never outside the depths of
+/// the corners, which an edge-on triangle would allow.
+#[cold]
+fn decide([u, v, w]: [f64; 3], from: [DVec3; 3], direction: DVec3, t: f64) -> Option<f64> {
     let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     let area = u + v + w;
     if !inside || area == 0.0 {
         return None;
     }
-    let corner = |i: usize| DVec3::new(at(i, 0).into(), at(i, 1).into(), at(i, 2).into());
-    let corners = [corner(0), corner(1), corner(2)];
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let from = corners.map(|corner| corner - shot.origin);
-    let weights = [v / area, w / area];
-    let depth = from.map(|corner| corner.dot(shot.direction) / shot.direction.length_squared());
-    // Plane and line; never outside the depths of the corners, which an edge-on triangle would allow.
-    let exact = normal.dot(from[0]) / normal.dot(shot.direction);
-    let mixed = (u * depth[0] + v * depth[1] + w * depth[2]) / area;
-    let t = if exact.is_finite() { exact } else { mixed };
-    let [d0, d1, d2] = depth;
-    let reach = corners.iter().fold(0.0f64, |reach, corner| reach.max(corner.abs().max_element()));
-    Some(Crossing {
-        t: t.max(d0.min(d1).min(d2)).min(d0.max(d1).max(d2)),
-        weights,
-        normal,
-        corner: from[0],
-        sway: normal.abs().element_sum() * reach,
-    })
+    let [d0, d1, d2] = from.map(|corner| corner.dot(direction) / direction.length_squared());
+    let t = if t.is_finite() { t } else { (u * d0 + v * d1 + w * d2) / area };
+    Some(t.max(d0.min(d1).min(d2)).min(d0.max(d1).max(d2)))
 }
 
 #[cfg(test)]
@@ -134,8 +177,8 @@ mod tests {
             prop_assume!(one.abs() > 1e-2 && two.abs() > 1e-2 && one.signum() == two.signum());
             // Beyond the corners at the ends of the diagonal, other triangles of the fan would be met.
             prop_assume!(along > 0.05 && along < 0.95 && (to(b) - to(d)).length() > 0.1);
-            let met = |corners| candidates::<Plain>(&packet(corners), &shot) & 1 == 1
-                && cross(&packet(corners), 0, &shot).is_some();
+            let met = |corners| candidates::<Plain, true>(&packet(corners), &shot).0 & 1 == 1
+                && cross(&packet(corners), 0, true, &shot).is_some();
             prop_assert!(met([a, b, d]) || met([b, c, d]));
         }
     }
@@ -144,8 +187,9 @@ mod tests {
     fn distance_is_exact_head_on() {
         let shot = Shot::new(DVec3::new(0.25, 0.25, 5.0), DVec3::NEG_Z, 1.0);
         let packet = packet([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
-        let met = shot.and_then(|shot| cross(&packet, 0, &shot));
-        assert_eq!(met.map(|met| (met.t, met.weights)), Some((4.0, [0.25, 0.25])));
+        let met =
+            shot.and_then(|shot| Some((cross(&packet, 0, false, &shot)?.t, weights(&packet, 0, &shot))));
+        assert_eq!(met, Some((4.0, [0.25, 0.25])));
     }
 
     #[test]
@@ -154,6 +198,6 @@ mod tests {
         assert!(Shot::new(DVec3::ZERO, DVec3::ZERO, 1.0).is_none());
         let shot = Shot::new(DVec3::ZERO, DVec3::X, 1.0);
         let empty = Packet { corners: [[[f32::NAN; WIDTH]; 3]; 3] };
-        assert_eq!(shot.map(|shot| candidates::<Plain>(&empty, &shot)), Some(0));
+        assert_eq!(shot.map(|shot| candidates::<Plain, false>(&empty, &shot)), Some((0, 0)));
     }
 }

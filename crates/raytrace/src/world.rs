@@ -190,7 +190,9 @@ fn place(
             continue;
         }
         let bounds = placed(models[model].bounds, &instance.world_from_mesh);
-        if !(bounds.reach() <= FARTHEST as f32) {
+        // Said so that NaN is left out too.
+        let near = bounds.reach() <= FARTHEST as f32;
+        if !near {
             continue;
         }
         boxes.push(bounds);

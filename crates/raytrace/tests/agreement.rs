@@ -84,7 +84,7 @@ proptest! {
     ) {
         let turn = DQuat::from_array(turn).normalize();
         let place = |i: u32| DAffine3::from_scale_rotation_translation(
-            DVec3::from(stretch) * if i % 2 == 0 { 1.0 } else { -1.0 },
+            DVec3::from(stretch) * if i.is_multiple_of(2) { 1.0 } else { -1.0 },
             turn * DQuat::from_rotation_y(f64::from(i)),
             DVec3::new(f64::from(i % 5) - 2.0, f64::from(i % 3) - 1.0, f64::from(i % 7) - 3.0),
         );
