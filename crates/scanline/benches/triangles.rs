@@ -1,4 +1,5 @@
-//! Seconds and memory from 10⁴ to 10⁶ triangles of terrain at 1920 × 1080 (10⁷ with `KEIKAN_BENCH_LARGE=1`).
+//! Seconds and memory from 10⁴ to 10⁶ triangles of terrain at 1920 × 1080 (10⁷ with
+//! `KEIKAN_BENCH_LARGE=1`, and that at 8192 × 8192 with `KEIKAN_BENCH_HUGE=1` as well).
 //!
 //! `once` lines are single runs, printed with the parts of the time; criterion repeats the smaller ones.
 
@@ -12,8 +13,7 @@ use keikan_scanline::{Knobs, Scanline};
 use light::{Geometry, Instance, Mesh, Opacity, See, Texture, View, Wrap};
 use rayon::prelude::*;
 
-const WIDTH: u32 = 1920;
-const HEIGHT: u32 = 1080;
+const SIZE: [u32; 2] = [1920, 1080];
 /// Rows that a task looks at, as the program does it.
 const BAND: u32 = 16;
 
@@ -75,16 +75,16 @@ fn placed(mesh: Mesh) -> Geometry {
     Geometry { meshes: vec![mesh], instances }
 }
 
-fn view() -> View {
+fn view([width, height]: [u32; 2]) -> View {
     let eye = DVec3::new(0.0, 260.0, 1900.0);
-    View::look_at(eye, DVec3::new(0.0, 60.0, 0.0), 50.0, WIDTH, HEIGHT)
+    View::look_at(eye, DVec3::new(0.0, 60.0, 0.0), 50.0, width, height)
 }
 
 /// Pieces in the picture, found in bands on all threads.
-fn look(stage: &Scanline) -> u64 {
+fn look(stage: &Scanline, [width, height]: [u32; 2]) -> u64 {
     let pieces = AtomicU64::new(0);
-    (0..HEIGHT.div_ceil(BAND)).into_par_iter().for_each(|band| {
-        stage.see(band * BAND..(band + 1) * BAND, 0..WIDTH, &mut |_, row| {
+    (0..height.div_ceil(BAND)).into_par_iter().for_each(|band| {
+        stage.see(band * BAND..(band + 1) * BAND, 0..width, &mut |_, row| {
             pieces.fetch_add(row.len() as u64, Ordering::Relaxed);
         });
     });
@@ -107,13 +107,13 @@ fn processor_seconds() -> f64 {
 }
 
 /// One run, with its parts; returns the geometry.
-fn once(name: &str, geometry: Geometry) -> Arc<Geometry> {
+fn once(name: &str, geometry: Geometry, size: [u32; 2]) -> Arc<Geometry> {
     let geometry = Arc::new(geometry);
     let before = peak_mebibytes();
     let (start, begun) = (Instant::now(), processor_seconds());
-    let stage = Scanline::new(geometry.clone(), view(), Knobs::default());
+    let stage = Scanline::new(geometry.clone(), view(size), Knobs::default());
     let (ready, set_up) = (start.elapsed(), processor_seconds());
-    let pieces = look(&stage);
+    let pieces = look(&stage, size);
     let (all, done) = (start.elapsed(), processor_seconds());
     println!(
         "once {name} {:>9} triangles: set-up {:.3} s ({:.2} processor), picture {:.3} s ({:.2} processor), {pieces} pieces, \
@@ -136,21 +136,22 @@ fn main() {
         .measurement_time(Duration::from_secs(4));
     let mut group = criterion.benchmark_group("terrain");
     for count in [10_000, 100_000, 1_000_000] {
-        let geometry = once("terrain", terrain(count));
+        let geometry = once("terrain", terrain(count), SIZE);
         if std::env::var_os("KEIKAN_BENCH_ONCE").is_none() {
             group.bench_function(BenchmarkId::from_parameter(count), |b| {
-                b.iter(|| look(&Scanline::new(geometry.clone(), view(), Knobs::default())));
+                b.iter(|| look(&Scanline::new(geometry.clone(), view(SIZE), Knobs::default()), SIZE));
             });
         }
     }
     group.finish();
     // Deep: large faces that pass through one another, and leaves that let others through.
-    once("soup", placed(scattered(3_000, 60.0)));
-    once("soup", placed(scattered(30_000, 60.0)));
-    once("leaves", leaves(100_000));
-    once("leaves", leaves(1_000_000));
+    once("soup", placed(scattered(3_000, 60.0)), SIZE);
+    once("soup", placed(scattered(30_000, 60.0)), SIZE);
+    once("leaves", leaves(100_000), SIZE);
+    once("leaves", leaves(1_000_000), SIZE);
     if std::env::var_os("KEIKAN_BENCH_LARGE").is_some() {
-        once("terrain", terrain(10_000_000));
+        let size = if std::env::var_os("KEIKAN_BENCH_HUGE").is_some() { [8192, 8192] } else { SIZE };
+        once("terrain", terrain(10_000_000), size);
     }
     criterion.final_summary();
 }
