@@ -116,9 +116,9 @@ pub struct Compare {
 /// How luminance becomes grey.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Tone {
-    /// Proportional up to 80 %, highlights rolled off and bleached (Khronos PBR Neutral).
+    /// Proportional up to 70 % of white, highlights rolled off and bleached.
     #[default]
-    Neutral,
+    Soft,
     /// Proportional, clipped at white.
     Linear,
 }

@@ -90,8 +90,9 @@ fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
     Ok(Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)), beam: false }))
 }
 
-/// Height of the scene's own ground \[m\]: the median height of its level faces, by area; a tenth of a per
-/// mille of the scene's height above it, so that the ground itself does not hide the ground's light.
+/// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground
+/// yet (pits, undersides); a per mille of the scene's height above it, so that the ground itself does not
+/// hide the ground's light.
 fn ground_height(geometry: &Geometry) -> Option<f32> {
     let (low, high) = geometry.bounds()?;
     let mut level: Vec<(f64, f64)> = Vec::new();
@@ -107,11 +108,11 @@ fn ground_height(geometry: &Geometry) -> Option<f32> {
         }
     }
     level.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let half = 0.5 * level.iter().map(|(_, area)| area).sum::<f64>();
+    let tenth = 0.1 * level.iter().map(|(_, area)| area).sum::<f64>();
     let mut sum = 0.0;
-    let median = level.iter().find(|(_, area)| {
+    let ground = level.iter().find(|(_, area)| {
         sum += area;
-        sum >= half
+        sum >= tenth
     });
-    median.map(|(height, _)| (height + 1e-4 * (high.y - low.y)) as f32)
+    ground.map(|(height, _)| (height + 1e-3 * (high.y - low.y)) as f32)
 }

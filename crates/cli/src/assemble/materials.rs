@@ -22,10 +22,17 @@ pub(super) fn shade(material: &Material) -> Box<dyn Shade> {
             .map(|map| NormalMap { image: image(&(Arc::clone(&map.texture), map.transform)), scale: map.scale }),
         emission: material.emission,
         emission_texture: material.emission_texture.as_ref().map(image),
-        ior: material.ior,
+        ior: index(material.normal_reflectance().element_sum() / 3.0),
         diffuse_transmission: material.diffuse_transmission,
         diffuse_transmission_colour: material.diffuse_transmission_colour,
     }))
+}
+
+/// The index whose interface reflects `f0` head on: files state both, and the reflectance wins
+/// (KHR_materials_specular). n = (1 + √F₀)/(1 − √F₀).
+fn index(f0: f32) -> f32 {
+    let r = f0.clamp(0.0, 0.99).sqrt();
+    (1.0 + r) / (1.0 - r)
 }
 
 fn image((texture, transform): &(Arc<Texture>, UvTransform)) -> Image {

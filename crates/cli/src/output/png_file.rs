@@ -33,7 +33,7 @@ impl Exposure {
         let scaled = into_gamut(rgb * (GREY / self.mid_grey));
         match self.tone {
             Tone::Linear => scaled.clamp(Vec3::ZERO, Vec3::ONE),
-            Tone::Neutral => neutral(scaled),
+            Tone::Soft => soft(scaled),
         }
     }
 }
@@ -60,16 +60,16 @@ fn into_gamut(rgb: Vec3) -> Vec3 {
     grey + (rgb - grey) * (grey / (grey - least))
 }
 
-/// Khronos PBR Neutral tone mapper (specification of 2024): colours are kept up to 80 % of white, brighter
-/// ones compressed and bleached.
-fn neutral(rgb: Vec3) -> Vec3 {
-    const START: f32 = 0.8 - 0.04;
+/// Proportional up to `START` of white; what is brighter comes closer and closer to white and is bleached on
+/// the way, as the eye and film see it (the shoulder of Khronos PBR Neutral, 2024, without its toe, which
+/// would darken shadows).
+///
+///   p' = 1 − (1 − s)²/(p + 1 − 2s)   for the largest channel p > s = START: value and slope continue there
+fn soft(rgb: Vec3) -> Vec3 {
+    const START: f32 = 0.7;
     const BLEACH: f32 = 0.15;
-    let least = rgb.min_element();
-    let toe = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
-    let rgb = rgb - toe;
     let peak = rgb.max_element();
-    if peak < START {
+    if peak <= START {
         return rgb.max(Vec3::ZERO);
     }
     let room = 1.0 - START;
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn curves_rise_and_stay_within_white() {
-        for tone in [Tone::Linear, Tone::Neutral] {
+        for tone in [Tone::Linear, Tone::Soft] {
             let exposure = Exposure { mid_grey: 1.0, tone };
             let mut before = -1.0;
             for step in 0..2000 {
