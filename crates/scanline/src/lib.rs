@@ -19,9 +19,10 @@
 //! | terrain | 10⁴ | 0.00 | 0.19 | 2 MiB |
 //! | terrain | 10⁵ | 0.00 | 0.30 | 2 MiB |
 //! | terrain | 10⁶ | 0.07 | 0.67 | 21 MiB |
-//! | terrain | 10⁷ | 0.69 | 2.2 | 195 MiB |
-//! | crossing faces as large as the picture | 3 · 10⁴ | 0.01 | 5.0 | |
-//! | leaves with cut-out textures, some 12 deep | 10⁶ | 0.12 | 9.1 | |
+//! | terrain | 10⁷ | 0.6 | 2.2 | 195 MiB |
+//! | terrain, 8192 × 8192 | 10⁷ | 0.6 | 12.0 | 186 MiB |
+//! | crossing faces as large as the picture | 3 · 10⁴ | 0.01 | 4.1 | |
+//! | leaves with cut-out textures, some 12 deep | 10⁶ | 0.11 | 7.4 | |
 //!
 //! **Leaves out.** Shading, shadows, curved solids, lens and motion blur.
 //!

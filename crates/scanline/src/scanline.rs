@@ -108,6 +108,8 @@ impl Scanline {
                 lists[line].push(segment);
             });
         };
+        // Corners lie far apart in memory and are read anew for each row. Reading those of 16 rows together
+        // was tried: a tenth faster for large faces, a fifth slower for fine terrain, and 130 MiB more.
         for &[instance, triangle] in self.faces.touching(group).flatten() {
             let mesh = &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize];
             if let Some(corners) = self.corners.face(instance, mesh.triangles[triangle as usize]) {
