@@ -12,8 +12,8 @@ use crate::binary::{Kind, Node};
 /// Children of a wide node.
 pub(crate) const WIDTH: usize = 8;
 
-/// Cost of one leaf in units of one node. Measured: on the terrain of `benches/rays.rs` all of 0.6 to 1.5
-/// trace equally fast within noise.
+/// Cost of one leaf in units of one node: nine loads and three edge functions against six loads and the
+/// sorting of children.
 const LEAF_COST: f32 = 1.0;
 
 /// What stands in one slot of a wide node.

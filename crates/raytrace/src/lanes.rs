@@ -1,7 +1,7 @@
 //! Eight f32 at once, twice: with AVX2, and in plain Rust for machines without it.
 //!
 //! Both do the same IEEE operations in the same order (no fused multiply-add), so that a picture does not
-//! depend on the machine. `unsafe` buys the AVX2 intrinsics: see `walk.rs` for what is gained.
+//! depend on the machine. `unsafe` buys the AVX2 intrinsics: `walk.rs` says what is gained.
 
 #![allow(unsafe_code, reason = "AVX2 intrinsics, with the measured gain stated in walk.rs")]
 

@@ -4,16 +4,17 @@ use obvhs::{BvhBuildParams, ploc::PlocSearchDistance};
 
 /// How much care goes into the hierarchy: building time against rays per second.
 ///
-/// Answers are the same with each: only time differs. Build seconds are for the million triangles of
-/// `benches/rays.rs`, relative to [`Quality::Medium`].
+/// Answers are the same with each: only time differs. Measured on the million triangles of
+/// `benches/rays.rs` (even terrain, two busy cores), where all three trace within 7 % of each other;
+/// uneven scenes gain more from care.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// For previews: builds in about ⅔ of the time; rays take 5 to 15 % longer.
+    /// For previews: built in 0.54 s.
     Fast,
-    /// For stills.
+    /// For stills: built in 0.59 s.
     #[default]
     Medium,
-    /// For pictures that trace for minutes: builds 2 to 3 times as long; rays gain up to 10 %.
+    /// For pictures that trace for minutes: built in 1.1 s.
     Best,
 }
 

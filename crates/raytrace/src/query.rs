@@ -9,7 +9,7 @@ use crate::{
     shot::Shot,
     tree::{Faces, Name},
     triangle::{self, Crossing, candidates, cross},
-    walk::{Visit, walk},
+    walk::{Visit, fetch, walk},
     world::World,
 };
 
@@ -151,6 +151,11 @@ struct Looking<'a, 'b, A, const SPLIT: bool> {
 
 impl<A: Ask, const SPLIT: bool> Visit for Looking<'_, '_, A, SPLIT> {
     const ORDERED: bool = A::ORDERED;
+
+    #[inline(always)]
+    fn announce(&self, leaf: u32) {
+        fetch(&self.within.faces.packets, leaf);
+    }
 
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, leaf: u32, reach: &mut f32) -> bool {
