@@ -24,11 +24,15 @@ fn crates() -> Vec<String> {
     folders.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
-/// Every Rust source below `folder`, with its text.
+/// Every Rust source below `folder` but test modules, with its text.
 fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten() {
         let path = entry.unwrap().path();
+        let is_test = path.file_stem().and_then(|s| s.to_str()).is_some_and(|s| s.ends_with("tests"));
+        if is_test {
+            continue;
+        }
         if path.is_dir() {
             found.extend(sources(&path));
         } else if path.extension().is_some_and(|e| e == "rs") {

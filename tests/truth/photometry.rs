@@ -5,19 +5,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder for the files of one test, empty of others'.
-pub fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();
     folder
 }
 
 /// Writes a file of a test.
-pub fn write(folder: &Path, name: &str, text: &str) {
+pub(crate) fn write(folder: &Path, name: &str, text: &str) {
     fs::write(folder.join(name), text).unwrap();
 }
 
 /// An LM-63-2002 file of a rotationally symmetric source, `candela(γ)` at `0, step, … 180` degrees.
-pub fn ies(step: usize, candela: impl Fn(f64) -> f64) -> String {
+pub(crate) fn ies(step: usize, candela: impl Fn(f64) -> f64) -> String {
     let angles: Vec<usize> = (0..=180).step_by(step).collect();
     let mut text = format!("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} 1 1 2 0 0 0\n1 1 0\n", angles.len());
     let mut line = |values: Vec<String>| {
@@ -32,6 +32,6 @@ pub fn ies(step: usize, candela: impl Fn(f64) -> f64) -> String {
 }
 
 /// A Lambertian source: `candela` · cos γ downwards.
-pub fn lambertian(candela: f64, step: usize) -> String {
+pub(crate) fn lambertian(candela: f64, step: usize) -> String {
     ies(step, |gamma| (candela * gamma.cos()).max(0.0))
 }

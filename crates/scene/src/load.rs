@@ -4,6 +4,7 @@ mod check;
 mod draft;
 mod eyes;
 mod framing;
+mod ground;
 mod inline;
 mod lamps;
 mod materials;
@@ -28,7 +29,7 @@ pub const MAX_BYTES: u64 = 256 << 20;
 /// Loads a scene file (`.toml`), or a model (`.glb`, `.gltf`) as a scene of its own.
 ///
 /// A model stands at the default [`crate::Site`] under its sun (or the model's own directional light) and a
-/// clear sky; without a camera it is framed automatically.
+/// clear sky, on an added level ground; without a camera it is framed automatically.
 pub fn load(path: &Path) -> Result<Scene, Error> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     match extension.as_str() {
@@ -98,6 +99,7 @@ fn model(path: &Path) -> Result<Scene, Error> {
     if draft.sun.is_none() {
         draft.sun = draft.site.sun();
     }
+    ground::add(&mut draft, &path.display().to_string());
     Ok(draft.finish(&path.display().to_string()))
 }
 

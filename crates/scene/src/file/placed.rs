@@ -25,7 +25,8 @@ pub(crate) struct MaterialTable {
     /// Share of light that passes through. Default 0.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(crate) transmission: Option<f64>,
-    /// Index of refraction. Default 1.5.
+    /// Index of refraction. Default 1.5; but a material that states none of ior, metallic, transmission and a
+    /// roughness below 1 is matt, and reflects its colour and nothing else.
     #[schemars(range(min = 1.0, max = 10.0))]
     pub(crate) ior: Option<f64>,
     /// What is left of white light after `attenuation_distance` inside a transparent body.

@@ -11,9 +11,19 @@ use crate::{Error, Material, Volume};
 /// Brightest luminance that a surface may be given \[cd/m²\]: the sun's disc has 1.6e9.
 const BRIGHTEST: f64 = 1e10;
 
-/// What inline geometry is made of unless it says so: a matt grey.
+/// What inline geometry is made of unless it says so: a matt grey that reflects half of all light.
 pub(crate) fn grey() -> Material {
-    Material { base_colour: Vec3::splat(0.5), ..Material::default() }
+    Material { base_colour: Vec3::splat(0.5), specular: 0.0, ..Material::default() }
+}
+
+/// Whether `table` speaks of gloss. One that does not is matt: its colour is all that it reflects, as those
+/// who calculate with reflectances expect.
+fn glossy(table: &MaterialTable) -> bool {
+    let above_zero = |share: Option<f64>| share.is_some_and(|share| share > 0.0);
+    table.ior.is_some()
+        || table.roughness.is_some_and(|roughness| roughness < 1.0)
+        || above_zero(table.metallic)
+        || above_zero(table.transmission)
 }
 
 /// Index of a named material.
@@ -29,7 +39,8 @@ pub(crate) fn named(root: &Spot<'_>, tables: &[MaterialTable]) -> Result<(Vec<Ma
         if name.is_empty() || names.insert(name.clone(), i as u32).is_some() {
             return Err(spot.key("name").error(format!("{name:?} is empty or taken: names must differ")));
         }
-        let mut material = Material { name, ..grey() };
+        let specular = if glossy(table) { 1.0 } else { 0.0 };
+        let mut material = Material { name, specular, ..grey() };
         change(&spot, table, &mut material)?;
         materials.push(material);
     }
