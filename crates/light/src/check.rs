@@ -2,12 +2,15 @@
 //!
 //! They return what they found instead of asserting, so that a test can state its own bound.
 
-use crate::{Arrival, Hit, Illuminate, Occlude, Path, Place, Ray, Shade, Spectrum, Surroundings, Uniform, Vacuum};
+use crate::{
+    Arrival, Hit, Illuminate, Occlude, Path, Place, Ray, Shade, Spectrum, Surroundings, Uniform, Vacuum,
+};
 
 /// Largest difference, over bands, between a segment's transmittance and that of the segment walked
 /// backwards. 0 for a reciprocal occluder (up to the rounding of end points).
 pub fn reciprocity(occlude: &dyn Occlude, segment: &Ray) -> f32 {
-    let back = Ray { origin: segment.at(segment.length), direction: -segment.direction, length: segment.length };
+    let back =
+        Ray { origin: segment.at(segment.length), direction: -segment.direction, length: segment.length };
     let (there, back) = (occlude.transmittance(segment), occlude.transmittance(&back));
     (there - back).map(f32::abs).max()
 }

@@ -19,6 +19,7 @@
 //! (intensity); cd/m², lx, cd after [`Spectrum::luminance`]. Axes as glTF: right-handed, +Y up.
 
 pub mod bands;
+mod bodies;
 pub mod check;
 pub mod colour;
 pub mod data;
@@ -37,13 +38,14 @@ mod spectrum;
 mod texture;
 mod view;
 
+pub use bodies::{Bodies, Hull};
 pub use film::{Film, Layer};
 pub use hit::{Hit, Path, Place};
 pub use illuminate::{Arrival, Illuminate, Uniform};
 pub use interface::{fresnel, refract};
 pub use luminaire::{Distribution, Luminaire};
 pub use mesh::{Geometry, Instance, Mesh, Opacity, Triangle};
-pub use occlude::{Occlude, Product, Vacuum};
+pub use occlude::{Occlude, PointSource, Product, Stretch, Vacuum};
 pub use ray::Ray;
 pub use see::{Nearest, Piece, See};
 pub use shade::{Dark, Lambert, Shade, Surroundings};

@@ -117,7 +117,8 @@ impl Geometry {
     pub fn triangle(&self, instance: u32, triangle: u32) -> Triangle {
         let instance = &self.instances[instance as usize];
         let mesh = &self.meshes[instance.mesh as usize];
-        let corner = |i: u32| instance.world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());
+        let corner =
+            |i: u32| instance.world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());
         Triangle(mesh.triangles[triangle as usize].map(corner))
     }
 
@@ -199,11 +200,8 @@ fn shading_normal(
     let local = mix(corners, weights, |i, weight| mesh.normals[i].as_dvec3() * weight);
     // Normals transform by the inverse transpose, i.e. by the cofactors, which need no inverse.
     let m = placed.world_from_mesh.matrix3;
-    let cofactors = glam::DMat3::from_cols(
-        m.y_axis.cross(m.z_axis),
-        m.z_axis.cross(m.x_axis),
-        m.x_axis.cross(m.y_axis),
-    );
+    let cofactors =
+        glam::DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
     let mut smooth = (cofactors * local).normalize_or_zero().as_vec3();
     if m.determinant() < 0.0 {
         smooth = -smooth;

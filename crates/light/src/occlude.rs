@@ -2,7 +2,29 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::{Ray, Spectrum};
+
+/// A source small enough to cast sharp shadows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointSource {
+    /// A lamp at this point \[m\].
+    At(DVec3),
+    /// A sun in the direction of this unit vector.
+    Toward(DVec3),
+}
+
+/// A stretch of a segment that a source does not simply reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Where it begins, as a share of the way along the segment, within \[0, 1\].
+    pub from: f64,
+    /// Where it ends, > `from`.
+    pub to: f64,
+    /// True where nothing of the source arrives; false where only [`Occlude::transmittance`] can tell.
+    pub dark: bool,
+}
 
 /// How much of the light sent along a segment arrives at its other end?
 ///
@@ -18,6 +40,15 @@ pub trait Occlude: Send + Sync {
             *out = self.transmittance(segment);
         }
     }
+
+    /// Shadow intervals: the stretches of the straight line from `a` to `b` (which lies on a surface) that
+    /// `source` does not simply reach are appended to `out`, in any order, overlapping or not; what no
+    /// stretch covers is reached whole. Agrees with [`Self::transmittance`] everywhere but within rounding
+    /// of the stretches' ends. False (and nothing appended) when this occluder cannot tell.
+    fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
+        let _ = (source, a, b, out);
+        false
+    }
 }
 
 /// Nothing is ever in the way: the null answer.
@@ -27,6 +58,10 @@ pub struct Vacuum;
 impl Occlude for Vacuum {
     fn transmittance(&self, _: &Ray) -> Spectrum {
         Spectrum::ONE
+    }
+
+    fn shadows(&self, _: &PointSource, _: DVec3, _: DVec3, _: &mut Vec<Stretch>) -> bool {
+        true
     }
 }
 
@@ -45,6 +80,15 @@ impl Occlude for Product {
         }
         product
     }
+
+    fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
+        let before = out.len();
+        let told = self.0.iter().all(|part| part.shadows(source, a, b, out));
+        if !told {
+            out.truncate(before);
+        }
+        told
+    }
 }
 
 /// A shared occluder is an occluder.
@@ -55,5 +99,9 @@ impl<T: Occlude + ?Sized> Occlude for Arc<T> {
 
     fn transmittances(&self, segments: &[Ray], out: &mut [Spectrum]) {
         (**self).transmittances(segments, out);
+    }
+
+    fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
+        (**self).shadows(source, a, b, out)
     }
 }

@@ -116,7 +116,8 @@ impl Level {
     fn bilinear(&self, uv: Vec2, wrap: [Wrap; 2]) -> [f32; 4] {
         let (x0, x1, fx) = neighbours(uv.x, self.width, wrap[0]);
         let (y0, y1, fy) = neighbours(uv.y, self.height, wrap[1]);
-        let texel = |x: u32, y: u32| self.texels[y as usize * self.width as usize + x as usize].map(f32::from);
+        let texel =
+            |x: u32, y: u32| self.texels[y as usize * self.width as usize + x as usize].map(f32::from);
         let (a, b, c, d) = (texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1));
         std::array::from_fn(|i| {
             let top = a[i] + fx * (b[i] - a[i]);
