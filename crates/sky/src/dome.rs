@@ -7,7 +7,8 @@ use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use crate::open_sky::OpenSky;
 use crate::pattern::lifted;
-use crate::sampling::{Frame, lattice, shift, transmit};
+use crate::sampling::{lattice, shift, transmit};
+use crate::sky_cells::SkyCells;
 use crate::{Pattern, diffuse_illuminance};
 
 /// Keeps the sky's random choices apart from those of other sources.
@@ -38,8 +39,12 @@ pub struct Description {
     /// Height y of the ground \[m\]: what is lower does not hide the ground's light. None = the ground is far
     /// below, and any ground of the scene's own hides it. A little above the scene's own ground is right.
     pub ground_height: Option<f32>,
-    /// Directions asked for at each place, ≥ 1. Half-hidden places keep a noise of about 1/√samples of what
-    /// the hidden boundary carries: 64 leave 2 to 4 % under an overcast sky; cost grows in proportion.
+    /// Directions asked for at each place, ≥ 1; cost grows in proportion, noise falls as samples^(−3/4).
+    ///
+    /// Under a clear sky 16, 48, 64 and 256 leave 7, 2.9, 2.4 and 0.8 % of what arrives (root mean square, mean
+    /// of the cases) behind upright edges that hide the sun's side, up to three times as much in the darkest of
+    /// them; 12, 5, 4 and 1.4 % behind slanted eaves; 21, 10, 8 and 2.3 % in a slit 16° wide. Under an overcast
+    /// sky it is about as much. The example `noise` lists all cases.
     pub samples: u32,
 }
 
@@ -67,13 +72,16 @@ impl Description {
 /// *Ground.* Directions below the horizon see an endless matt ground, open to the whole sky and sun:
 /// L_g = albedo · (E_sky + E_sun)/π, everywhere the same, without anyone's shadow on it.
 ///
-/// *Occlusion.* With T_i the transmittance along `samples` directions ω_i around the place's normal, of
-/// density cos/π and decided by its seed, and E_open the exact irradiance of an open place of that normal:
+/// *Occlusion.* With T_i the transmittance along `samples` directions ω_i in front of the place, spread evenly
+/// over shares of the light (sky and ground in cells of 5.6° to 11°, each chosen by nearly its share of the
+/// irradiance; density p) and moved by the place's seed, and E_open the exact irradiance of an open place of
+/// that normal:
 ///
-///   E = E_open(sky) · Σ L_i T_i / Σ L_i + E_open(ground) · Σ T_i / n,    each sum over its own directions
+///   E = E_open · Σ w_i T_i / Σ w_i,   w_i = L_i cos_i / p_i,   for the sky and for the ground by themselves
 ///
-/// Open places are therefore free of noise. As every ratio of estimates it is biased, by O(1/samples), and
-/// stays within \[0, E_open\].
+/// Open places are therefore free of noise. As every ratio of estimates it is biased, by O(1/samples) of the
+/// noise: not seen to 1 % of what arrives with 48 samples. A part that no direction has met counts as hidden as
+/// the other. The result stays within \[0, E_open\].
 ///
 /// ```
 /// use glam::Vec3;
@@ -95,10 +103,11 @@ pub struct Dome {
     ground_height: f32,
     samples: u32,
     open: OpenSky,
+    cells: SkyCells,
 }
 
 impl Dome {
-    /// The sky that `description` describes. Takes some 50 ms: the table of open planes is made here.
+    /// The sky that `description` describes. Takes some 20 ms, nearly all for the table of open planes.
     pub fn new(description: &Description) -> Self {
         let Description { pattern, toward_sun, samples, .. } = *description;
         let altitude = f64::from(toward_sun.y.clamp(-1.0, 1.0)).asin().to_degrees();
@@ -110,16 +119,19 @@ impl Dome {
         };
         let horizontal = Spectrum::light_of_temperature(temperature) * illuminance;
         let open = OpenSky::new(pattern, toward_sun);
+        let zenith = horizontal * (1.0 / open.horizontal());
+        let ground =
+            (horizontal + description.sun_horizontal) * (description.albedo.clamp(0.0, 1.0) * FRAC_1_PI);
         Self {
             pattern,
             toward_sun: lifted(toward_sun),
             per_zenith: 1.0 / pattern.shape(Vec3::Y, lifted(toward_sun)),
-            zenith: horizontal * (1.0 / open.horizontal()),
-            ground: (horizontal + description.sun_horizontal)
-                * (description.albedo.clamp(0.0, 1.0) * FRAC_1_PI),
+            zenith,
+            ground,
             ground_height: description.ground_height.unwrap_or(f32::NEG_INFINITY),
             samples: samples.max(1),
             open,
+            cells: SkyCells::new(pattern, toward_sun, [zenith.mean(), ground.mean()]),
         }
     }
 
@@ -155,20 +167,24 @@ impl Dome {
         place.leave(direction, length)
     }
 
+    /// Directions around `place` where light comes from: the sky's (0) and the ground's (1), each with what it
+    /// counts among its own.
+    fn directions(&self, place: &Place) -> impl Iterator<Item = (Vec3, usize, f32)> {
+        let offset = shift(place.seed, PURPOSE);
+        let (normal, facing) = (place.normal, self.cells.facing(place.normal));
+        (0..self.samples).filter_map(move |i| {
+            let (direction, part, per_density) = facing.choose(lattice(i, self.samples, offset))?;
+            let cosine = direction.dot(normal);
+            let luminance = if part == 0 { self.relative(direction) } else { 1.0 };
+            (cosine > 0.0).then_some((direction, part, luminance * cosine * per_density))
+        })
+    }
+
     /// Share of the sky's and of the ground's light that arrives at `place`.
     fn visible(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
-        let offset = shift(place.seed, PURPOSE);
-        let frame = Frame::new(place.normal);
-        let black = [self.zenith.is_zero(), self.ground.is_zero()];
-        let rays = (0..self.samples).filter_map(|i| {
-            let direction = frame.cosine_hemisphere(lattice(i, self.samples, offset));
-            let part = usize::from(direction.y < 0.0);
-            if black[part] {
-                return None;
-            }
-            let weight = if part == 0 { self.relative(direction) } else { 1.0 };
-            Some((self.ray(place, direction), (part, weight)))
-        });
+        let rays = self
+            .directions(place)
+            .map(|(direction, part, weight)| (self.ray(place, direction), (part, weight)));
         let (mut through, mut open) = ([Spectrum::ZERO; 2], [0.0f32; 2]);
         transmit(occlude, rays, |(part, weight), transmittance| {
             through[part] += transmittance * weight;

@@ -10,8 +10,9 @@
 //!
 //! **Known to be wrong.** The clear sky's illuminance and the direct beam come from different sources (IES
 //! medians; an atmosphere with a turbidity) and are consistent only for ordinary clear air. Light from below
-//! the horizon ignores shadows on the ground. A place whose normal sees little of the sky (deep under
-//! a roof) is noisy, since directions are chosen by the cosine, not by what is open.
+//! the horizon ignores shadows on the ground. A place that sees little of the sky (deep under a roof, in a slit)
+//! is noisy: directions are chosen by what an open place would receive, not by what is open. Edges of things
+//! below the size of a share of light (1/samples) are noise too.
 //!
 //! ```
 //! use glam::Vec3;
@@ -36,6 +37,7 @@ mod dome;
 mod open_sky;
 mod pattern;
 mod sampling;
+mod sky_cells;
 mod solar_spectrum;
 mod sun;
 

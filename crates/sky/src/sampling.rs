@@ -2,7 +2,6 @@
 
 use std::f32::consts::TAU;
 
-use glam::Vec3;
 use light::{Occlude, Ray, Spectrum};
 
 /// A place for a point of the unit square that one seed and one purpose decide.
@@ -38,31 +37,6 @@ pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
     [radius * cos, radius * sin]
 }
 
-/// Two directions across a normal, and itself.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
-    across: Vec3,
-    along: Vec3,
-    normal: Vec3,
-}
-
-impl Frame {
-    /// Around a unit normal.
-    pub(crate) fn new(normal: Vec3) -> Self {
-        let (across, along) = normal.any_orthonormal_pair();
-        Self { across, along, normal }
-    }
-
-    /// The direction around the normal that belongs to a point of the unit square: density cos θ/π.
-    ///
-    /// A point of the unit disc, raised to the hemisphere above it (Malley).
-    pub(crate) fn cosine_hemisphere(&self, at: [f32; 2]) -> Vec3 {
-        let [x, y] = disc(at);
-        // at[0] ≤ 1 − 2⁻²⁴, so that the height is at least 2⁻¹²: never on the plane itself.
-        (self.across * x + self.along * y + self.normal * (1.0 - at[0]).sqrt()).normalize()
-    }
-}
-
 /// Rays asked for in one call to an occluder.
 const BATCH: usize = 64;
 
@@ -88,6 +62,7 @@ pub(crate) fn transmit<T: Copy>(
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
     use light::Vacuum;
 
     use super::*;
@@ -106,21 +81,6 @@ mod tests {
                 assert!(at.iter().all(|x| (0.0..1.0).contains(x)));
             }
             assert!(seen.iter().all(|&n| n == 1), "{count}");
-        }
-    }
-
-    #[test]
-    fn directions_lie_above_their_plane_with_a_mean_cosine_of_two_thirds() {
-        for normal in [Vec3::Y, Vec3::NEG_Y, Vec3::new(0.6, 0.0, -0.8), Vec3::NEG_Z] {
-            let count = 256;
-            let cosines = (0..count).map(|i| {
-                let at = lattice(i, count, shift(9, 2));
-                normal.dot(Frame::new(normal).cosine_hemisphere(at))
-            });
-            let mean = cosines.inspect(|&cos| assert!(cos > 0.0)).sum::<f32>() / count as f32;
-            // E[cos] = 2/3 under density cos/π. cos = √(1 − u) has variation 1; one point per column errs by
-            // at most 1/count.
-            assert!((mean - 2.0 / 3.0).abs() <= 1.0 / count as f32, "{normal}: {mean}");
         }
     }
 

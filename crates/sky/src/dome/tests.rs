@@ -137,6 +137,28 @@ fn nights_are_dark_and_suns_anywhere_give_finite_light() {
     }
 }
 
+#[test]
+fn an_upright_edge_through_the_sun_misplaces_one_direction_at_most() {
+    // By symmetry one half of a clear sky and of its ground, on a wall that faces the sun.
+    for samples in [16u32, 48, 64, 256] {
+        let sun_horizontal = Spectrum::splat(0.3);
+        let sky = Dome::new(&Description {
+            samples,
+            sun_horizontal,
+            ..Description::new(Pattern::Clear, at_altitude(20.0))
+        });
+        let exact = 0.5 * sky.open_irradiance(Vec3::NEG_Z)[0];
+        let seeds = 64;
+        let square: f32 = (0..seeds)
+            .map(|seed| (sky.irradiance(&place(Vec3::NEG_Z, seed), &HalfScreen)[0] / exact - 1.0).powi(2))
+            .sum();
+        let rms = (square / seeds as f32).sqrt();
+        println!("{samples:5} samples: {:.2} % noise", 100.0 * rms);
+        // One of n directions is 2/n of half the light; even weights would keep within half of that.
+        assert!(rms < 2.0 / samples as f32, "{samples}: {rms}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
