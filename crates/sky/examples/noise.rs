@@ -12,8 +12,8 @@ use light::{Illuminate, Occlude, Place, Ray, Spectrum};
 
 const SAMPLES: [u32; 4] = [16, 48, 64, 256];
 const SEEDS: u32 = 400;
-/// Bands of altitude of the quadrature over the sphere; 16 times as many columns (the slit is narrow).
-const BANDS: usize = 300;
+/// Bands of altitude of the quadrature over the sphere; 4 times as many columns (the slit is narrow).
+const BANDS: usize = 1200;
 
 /// Which directions are open.
 #[derive(Clone, Copy)]
@@ -70,10 +70,10 @@ fn luminance(pattern: Pattern, direction: [f64; 3], sun: [f64; 3]) -> f64 {
 fn integrals(pattern: Pattern, sun: Vec3, normal: Vec3, screens: &[Screen]) -> Vec<[f64; 2]> {
     let [sun, n] = [sun, normal].map(|v| v.as_dvec3().normalize().to_array());
     let mut sums = vec![[0.0; 2]; screens.len() + 1];
-    let [step, turn] = [PI / BANDS as f64, 2.0 * PI / (16 * BANDS) as f64];
+    let [step, turn] = [PI / BANDS as f64, 2.0 * PI / (4 * BANDS) as f64];
     for band in 0..BANDS {
         let (sin, cos) = ((band as f64 + 0.5) * step - FRAC_PI_2).sin_cos();
-        for column in 0..16 * BANDS {
+        for column in 0..4 * BANDS {
             let (s, c) = ((column as f64 + 0.5) * turn).sin_cos();
             let d = [cos * c, sin, cos * s];
             let cosine = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
