@@ -163,16 +163,14 @@ fn write(
 }
 
 fn header(args: &args::Render, scene: &Scene, plan: &Plan) -> Header {
-    let mut own = vec![
-        ("keikan/unit".to_owned(), "R G B and Y in cd/m2 (photopic, 683 lm/W)".to_owned()),
-        ("keikan/site".to_owned(), caption::describe(scene)),
-        ("keikan/camera".to_owned(), plan.camera.clone()),
-        ("keikan/preset".to_owned(), format!("{:?}", plan.preset).to_lowercase()),
-        ("keikan/settings".to_owned(), serde_json::to_string(&plan.settings).unwrap_or_default()),
-    ];
-    if let Some(path) = &args.view.scene {
-        own.push(("keikan/scene".to_owned(), path.display().to_string()));
-    }
+    let made_by = serde_json::json!({
+        "unit": "R G B and Y in cd/m2 (photopic, 683 lm/W)",
+        "site": caption::describe(scene),
+        "scene": args.view.scene.as_ref().map_or("park (embedded)".to_owned(), |path| path.display().to_string()),
+        "camera": plan.camera,
+        "preset": plan.preset,
+        "settings": plan.settings,
+    });
     Header {
         latitude: scene.site.latitude as f32,
         longitude: scene.site.longitude as f32,
@@ -180,7 +178,7 @@ fn header(args: &args::Render, scene: &Scene, plan: &Plan) -> Header {
         capture_date: caption::local_time(scene),
         owner: args.owner.clone(),
         comments: format!("keikan: absolute radiometric rendering; {}", caption::describe(scene)),
-        own,
+        made_by: made_by.to_string(),
     }
 }
 

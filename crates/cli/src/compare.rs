@@ -5,8 +5,9 @@ use std::path::Path;
 
 use glam::Vec3;
 use palette::color_difference::Ciede2000;
+use palette::convert::FromColorUnclamped;
 use palette::white_point::D65;
-use palette::{FromColor, Lab, LinSrgb};
+use palette::{Lab, LinSrgb};
 use rayon::prelude::*;
 
 use crate::Error;
@@ -131,7 +132,7 @@ fn white(picture: &Picture) -> f32 {
 }
 
 fn lab(rgb: Vec3) -> Lab<D65, f32> {
-    Lab::from_color(LinSrgb::new(rgb.x, rgb.y, rgb.z))
+    Lab::from_color_unclamped(LinSrgb::new(rgb.x, rgb.y, rgb.z))
 }
 
 fn ssim(a: &Picture, b: &Picture, white: f32) -> Result<f64, Error> {

@@ -122,7 +122,7 @@ impl Pipeline {
             for (layer, (_, sources)) in lit_by.iter().enumerate() {
                 let around = Around { pipeline: self, sources };
                 let line = &mut pixels[start + layer * width..][..width];
-                self.shade_row(row, columns.start, pieces, &around, line);
+                self.shade_row(row, columns.start, pieces, &around, line, monitor);
             }
             if lit_by.len() > 1 {
                 separate_emission(&mut pixels[start..][..width * lit_by.len()], width);
@@ -130,9 +130,21 @@ impl Pipeline {
         });
     }
 
-    fn shade_row(&self, row: u32, first: u32, pieces: &[Piece], around: &Around, line: &mut [Spectrum]) {
+    fn shade_row(
+        &self,
+        row: u32,
+        first: u32,
+        pieces: &[Piece],
+        around: &Around,
+        line: &mut [Spectrum],
+        monitor: &Monitor,
+    ) {
         let mut covered = vec![0.0f32; line.len()];
         for piece in pieces {
+            // A row may take long at the highest settings, and Ctrl-C should not.
+            if monitor.interrupted.load(Ordering::Relaxed) {
+                return;
+            }
             let column = (piece.column - first) as usize;
             line[column] += around.leaves(&piece.hit) * piece.share;
             covered[column] += piece.share;

@@ -21,8 +21,9 @@ pub struct Header {
     pub owner: String,
     /// One paragraph for people.
     pub comments: String,
-    /// Own attributes: name and text.
-    pub own: Vec<(String, String)>,
+    /// All that made the picture, as JSON, in one attribute named `keikan`: the encoder writes several in no
+    /// fixed order, and the same picture must be the same file.
+    pub made_by: String,
 }
 
 /// The bytes of an EXR with `R G B` and `Y` of the first picture, and `name.R …` of the others.
@@ -73,10 +74,8 @@ fn attributes(header: &Header) -> LayerAttributes {
         software_name: text(concat!("keikan ", env!("CARGO_PKG_VERSION"))),
         ..LayerAttributes::default()
     };
-    for (name, value) in &header.own {
-        if let (Some(name), Some(value)) = (text(name), text(value)) {
-            attributes.other.insert(name, AttributeValue::Text(value));
-        }
+    if let (Some(name), Some(made_by)) = (text("keikan"), text(&header.made_by)) {
+        attributes.other.insert(name, AttributeValue::Text(made_by));
     }
     attributes
 }
