@@ -16,17 +16,23 @@ use glam::DVec3;
 /// assert_eq!(fresnel(1.0 / 1.33, 0.5), 1.0); // total reflection beyond 48.75°
 /// ```
 pub fn fresnel(eta: f64, cos_in: f64) -> f64 {
+    let [s, p] = fresnel_polarised(eta, cos_in);
+    0.5 * (s + p)
+}
+
+/// The same for light polarised across (r_s²) and along (r_p²) the plane of incidence.
+pub fn fresnel_polarised(eta: f64, cos_in: f64) -> [f64; 2] {
     let cos = cos_in.clamp(0.0, 1.0);
     // (η − 1)(η + 1) keeps its digits where η is near 1.
     let g2 = (eta - 1.0) * (eta + 1.0) + cos * cos;
     if g2 <= 0.0 {
         // At η = 1 and exactly grazing there is no interface at all.
-        return if eta == 1.0 { 0.0 } else { 1.0 };
+        return [if eta == 1.0 { 0.0 } else { 1.0 }; 2];
     }
     let g = g2.sqrt();
     let s = (cos - g) / (cos + g);
     let p = (eta * eta * cos - g) / (eta * eta * cos + g);
-    0.5 * (s * s + p * p)
+    [s * s, p * p]
 }
 
 /// Direction of refracted light (Snell); none beyond the critical angle.

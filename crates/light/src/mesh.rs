@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3};
 
-use crate::{Hit, Path, Place, Ray, Texture, rounding};
+use crate::{Hit, Medium, Path, Place, Ray, Texture, rounding};
 
 /// How much of a face is there: alpha of a texture times a factor.
 #[derive(Clone, Debug)]
@@ -50,6 +50,8 @@ pub struct Mesh {
     pub material: u32,
     /// None = solid.
     pub opacity: Option<Arc<Opacity>>,
+    /// What the body is filled with where light passes its surface; none = no light gets inside.
+    pub medium: Option<Arc<Medium>>,
 }
 
 /// One placement of a mesh.
