@@ -38,6 +38,7 @@
 
 mod binary;
 mod collapse;
+mod fan;
 mod lanes;
 mod quality;
 mod query;

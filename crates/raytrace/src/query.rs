@@ -1,7 +1,7 @@
 //! The questions that are asked of a world: what is nearest, and is anything in the way?
 
 use glam::{DVec2, DVec3};
-use light::{Geometry, Hit, Mesh, Nearest, Occlude, Ray, Spectrum, rounding::UNIT};
+use light::{Geometry, Hit, Mesh, Nearest, Occlude, PointSource, Ray, Spectrum, Stretch, rounding::UNIT};
 
 use crate::{
     collapse::WIDTH,
@@ -310,5 +310,9 @@ impl Occlude for World {
         let mut through = Shadow { through: 1.0 };
         self.ask(line(segment), 0.0, segment.length, &mut through);
         Spectrum::splat(through.through as f32)
+    }
+
+    fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
+        self.cut(source, a, b, out)
     }
 }
