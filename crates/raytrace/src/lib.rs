@@ -45,6 +45,7 @@ mod query;
 mod rays;
 mod reference;
 mod shot;
+pub mod solid;
 pub mod surface;
 mod tree;
 mod triangle;
