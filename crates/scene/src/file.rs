@@ -4,6 +4,7 @@
 
 mod placed;
 mod seen;
+mod solids;
 mod values;
 
 use std::collections::BTreeMap;
@@ -11,8 +12,11 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub(crate) use placed::{ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, TerrainTable};
+pub(crate) use placed::{
+    ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable,
+};
 pub(crate) use seen::{CameraTable, GridTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable};
+pub(crate) use solids::SolidTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
 
 /// A table whose keys belong to a later version.
@@ -41,8 +45,8 @@ pub(crate) struct SceneFile {
     pub(crate) sensor: Vec<SensorTable>,
     /// Stage names and knobs; nested tables are joined with dots.
     pub(crate) settings: BTreeMap<String, Setting>,
-    /// Reserved for curved solids and set operations; ignored with a warning.
-    pub(crate) solid: Vec<ReservedTable>,
+    /// Curved solids, convex polyhedra and set operations of them.
+    pub(crate) solid: Vec<SolidTable>,
     /// Reserved for water; ignored with a warning.
     pub(crate) water: Vec<ReservedTable>,
     /// Reserved for trees; ignored with a warning.

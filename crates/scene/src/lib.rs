@@ -13,8 +13,8 @@
 //! # Ok::<(), keikan_scene::Error>(())
 //! ```
 //!
-//! **Leaves out.** What to do with the data: chapters never see this crate. Animations, skins, solids, water
-//! and trees (a warning says so). Which models and knobs exist: names pass through as texts.
+//! **Leaves out.** What to do with the data: chapters never see this crate. Animations, skins, water
+//! and trees (a warning says so); what faces a set operation of solids has. Which models and knobs exist: names pass through as texts.
 //!
 //! **Where it is wrong.** UTC is taken for UT1 (the sun up to 0.004° off) and ΔT is an estimate; refraction
 //! is that of the standard atmosphere. Lamps are points. Positions become f32 about the scene's middle: half a
@@ -29,6 +29,7 @@ mod load;
 mod material;
 pub mod photometry;
 mod scene;
+mod solid;
 mod sun;
 pub mod triangulate;
 
@@ -36,4 +37,5 @@ pub use error::{Error, Warning};
 pub use load::{MAX_BYTES, load, parse, schema};
 pub use material::{Material, NormalMap, UvTransform, Volume};
 pub use scene::*;
+pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;

@@ -5,6 +5,7 @@ mod draft;
 mod eyes;
 mod framing;
 mod ground;
+mod hull;
 mod inline;
 mod lamps;
 mod materials;
@@ -14,6 +15,7 @@ mod punctual;
 mod recentre;
 mod settings;
 mod site;
+mod solids;
 
 use std::io::Read;
 use std::path::Path;
@@ -120,6 +122,7 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     for (i, table) in file.model.iter().enumerate() {
         models::add(draft, &mut library, &root.key("model").index(i), table, &names)?;
     }
+    solids::add(draft, root, &file.solid, &names)?;
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {
         let sensor = eyes::sensor(&root.key("sensor").index(i), i + 1, table, left)?;
@@ -131,7 +134,7 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
 
 /// Tables of later versions are named, not silently dropped.
 fn reserved(root: &Spot<'_>, file: &SceneFile, warnings: &mut Vec<Warning>) {
-    for (name, tables) in [("solid", &file.solid), ("water", &file.water), ("tree", &file.tree)] {
+    for (name, tables) in [("water", &file.water), ("tree", &file.tree)] {
         if !tables.is_empty() {
             let what = format!("planned by a later version; ignored ({} tables)", tables.len());
             warnings.push(root.key(name).index(0).warning(what));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Affine2, Vec3};
-use light::Texture;
+use light::{Medium, Spectrum, Texture};
 
 /// Texture coordinates as the file gives them to those of one texture (KHR_texture_transform).
 pub type UvTransform = Affine2;
@@ -80,6 +80,37 @@ impl Material {
     pub fn normal_reflectance(&self) -> Vec3 {
         let r = (self.ior - 1.0) / (self.ior + 1.0);
         (self.specular_colour * (r * r)).min(Vec3::ONE) * self.specular
+    }
+
+    /// What fills a body of this material, for light that passes its surface; none for an opaque one.
+    ///
+    /// σ = −ln(colour)/distance per band (KHR_materials_volume); without a volume it is a thin pane. The metallic
+    /// share of the surface lets nothing through. Textures do not count: a body's shadow has one tint.
+    ///
+    /// ```
+    /// use keikan_scene::{Material, Volume};
+    /// let inside = Volume { attenuation_colour: glam::Vec3::splat(0.5), attenuation_distance: 2.0 };
+    /// let glass = Material { transmission: 1.0, volume: Some(inside), ..Material::default() };
+    /// let left = glass.medium().unwrap().absorption.attenuate(2.0);
+    /// assert!((left[0] - 0.5).abs() < 1e-6); // half is left after two metres, to rounding
+    /// ```
+    pub fn medium(&self) -> Option<Medium> {
+        let transmission = self.transmission * (1.0 - self.metallic);
+        if !transmission.is_normal() || transmission < 0.0 {
+            return None;
+        }
+        let absorption = self.volume.map_or(Spectrum::ZERO, |volume| {
+            // A band of a saturated colour may be 0: what is left of it then is a millionth.
+            let left = Spectrum::reflectance(volume.attenuation_colour).map(|band| band.clamp(1e-6, 1.0));
+            left.map(|band| -band.ln() / volume.attenuation_distance)
+        });
+        Some(Medium {
+            index: self.ior,
+            absorption,
+            transmission: transmission.min(1.0),
+            tint: Spectrum::reflectance(self.base_colour).map(|band| band.clamp(0.0, 1.0)),
+            thin: self.volume.is_none(),
+        })
     }
 }
 

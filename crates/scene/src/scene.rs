@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, Vec3};
 use light::{Distribution, Geometry, Projection};
 
-use crate::{Material, Warning};
+use crate::{Material, Solid, Warning};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -17,7 +17,9 @@ pub struct Scene {
     pub origin: DVec3,
     /// All triangles.
     pub geometry: Arc<Geometry>,
-    /// By the index that meshes carry.
+    /// Curved solids and set operations that are seen.
+    pub solids: Vec<Solid>,
+    /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
     /// Lamps.
     pub lights: Vec<Light>,

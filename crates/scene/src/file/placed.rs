@@ -42,7 +42,7 @@ pub(crate) struct MaterialTable {
     pub(crate) diffuse_transmission_colour: Option<Colour>,
 }
 
-/// A glTF file or inline geometry, placed. Exactly one of file, box, plane, polygon, terrain.
+/// A glTF file or inline geometry, placed. Exactly one of file, box, prism, plane, polygon, terrain.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct ModelTable {
@@ -53,6 +53,8 @@ pub(crate) struct ModelTable {
     /// A box that stands on its position.
     #[serde(rename = "box")]
     pub(crate) cuboid: Option<BoxTable>,
+    /// A regular prism that stands on its position.
+    pub(crate) prism: Option<PrismTable>,
     /// A horizontal rectangle around its position, facing up.
     pub(crate) plane: Option<PlaneTable>,
     /// A flat face, concave and with holes as you like.
@@ -77,6 +79,19 @@ pub(crate) struct ModelTable {
 pub(crate) struct BoxTable {
     /// Along x, y (height) and z [m], > 0.
     pub(crate) size: [f64; 3],
+}
+
+/// A regular prism.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PrismTable {
+    /// Corners of its base; the first lies at +x.
+    #[schemars(range(min = 3, max = 64))]
+    pub(crate) sides: u32,
+    /// From the axis to the corners [m], > 0.
+    pub(crate) radius: f64,
+    /// Along y [m], > 0.
+    pub(crate) height: f64,
 }
 
 /// A horizontal rectangle.

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use light::{Geometry, Instance, Mesh};
 
 use super::{framing, materials, recentre};
-use crate::{Camera, Light, Material, Scene, Sensor, Site, Sky, Sun, Warning};
+use crate::{Camera, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
 /// 16384 is 0.98 mm.
@@ -18,6 +18,7 @@ const FAR: f64 = 16_384.0;
 pub(crate) struct Draft {
     pub(crate) site: Site,
     pub(crate) geometry: Geometry,
+    pub(crate) solids: Vec<Solid>,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: Vec<Light>,
     pub(crate) sun: Option<Sun>,
@@ -76,7 +77,7 @@ impl Draft {
     /// Recentred and complete: at least one camera.
     pub(crate) fn finish(mut self, name: &str) -> Scene {
         if self.cameras.is_empty() {
-            self.cameras.push(framing::frame(&self.geometry));
+            self.cameras.push(framing::frame(&self.geometry, &self.solids));
         }
         let others: Vec<DVec3> = self
             .lights
@@ -85,19 +86,24 @@ impl Draft {
             .chain(self.sensors.iter().filter_map(|sensor| sensor.points.first().copied()))
             .chain(self.cameras.iter().map(|camera| camera.position))
             .collect();
-        let origin = recentre::origin(&self.geometry, &others);
+        let origin = recentre::origin(&self.geometry, &self.solids, &others);
         self.geometry
             .instances
             .iter_mut()
             .for_each(|instance| instance.world_from_mesh.translation -= origin);
+        self.solids.iter_mut().for_each(|solid| {
+            solid.node.placements_mut(&mut |placement| placement.translation -= origin);
+        });
         self.lights.iter_mut().for_each(|light| light.position -= origin);
         self.cameras.iter_mut().for_each(|camera| camera.position -= origin);
         self.sensors.iter_mut().flat_map(|sensor| &mut sensor.points).for_each(|point| *point -= origin);
+        self.fill();
         self.warn(name);
         Scene {
             site: self.site,
             origin,
             geometry: Arc::new(self.geometry),
+            solids: self.solids,
             materials: self.materials,
             lights: self.lights,
             sun: self.sun,
@@ -109,16 +115,24 @@ impl Draft {
         }
     }
 
+    /// Tells every mesh what its body is filled with.
+    fn fill(&mut self) {
+        let media: Vec<_> = self.materials.iter().map(|material| material.medium().map(Arc::new)).collect();
+        for mesh in &mut self.geometry.meshes {
+            mesh.medium = media.get(mesh.material as usize).cloned().flatten();
+        }
+    }
+
     /// What the user should know about the whole.
     fn warn(&mut self, name: &str) {
         let mut warn = |what: String| self.warnings.push(Warning { place: name.to_owned(), what });
         if self.lost > 0 {
             warn(format!("{} placements are flat or beyond 10⁹ m; they are left out", self.lost));
         }
-        if self.geometry.instances.is_empty() {
-            warn("there is nothing to see: no model has a face".to_owned());
+        if self.geometry.instances.is_empty() && self.solids.is_empty() {
+            warn("there is nothing to see: no model has a face, and there is no solid".to_owned());
         }
-        let boxes = recentre::instance_boxes(&self.geometry);
+        let boxes = recentre::all_boxes(&self.geometry, &self.solids);
         let reach = boxes
             .iter()
             .flatten()

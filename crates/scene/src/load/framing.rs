@@ -4,8 +4,8 @@ use glam::DVec3;
 use light::{Geometry, Projection};
 
 use super::placement::look_along;
-use super::recentre::instance_boxes;
-use crate::Camera;
+use super::recentre::all_boxes;
+use crate::{Camera, Solid};
 
 /// Heading of the eye from the front of the model (+Z, as glTF has it) towards +X, and its height, degrees.
 const HEADING: f64 = 35.0;
@@ -25,8 +25,8 @@ const SAMPLES: usize = 200_000;
 ///
 /// Grounds and domes that dwarf everything else do not count, nor does what lies far outside the bulk of the
 /// corners.
-pub(crate) fn frame(geometry: &Geometry) -> Camera {
-    let points = bulk(sample(geometry));
+pub(crate) fn frame(geometry: &Geometry, solids: &[Solid]) -> Camera {
+    let points = bulk(sample(geometry, solids));
     let (heading, above) = (HEADING.to_radians(), ABOVE.to_radians());
     let toward_eye = DVec3::new(heading.sin() * above.cos(), above.sin(), heading.cos() * above.cos());
     let frame = look_along(-toward_eye, DVec3::Y);
@@ -61,9 +61,9 @@ fn fit(points: &[DVec3], tan_x: f64, tan_y: f64) -> DVec3 {
     DVec3::new(0.5 * (right - left), 0.5 * (top - bottom), wide.max(high).max(nearest))
 }
 
-/// Corners of what counts, evenly picked.
-fn sample(geometry: &Geometry) -> Vec<DVec3> {
-    let boxes = instance_boxes(geometry);
+/// Corners of what counts, evenly picked; for solids those of their boxes.
+fn sample(geometry: &Geometry, solids: &[Solid]) -> Vec<DVec3> {
+    let boxes = all_boxes(geometry, solids);
     let mut order: Vec<usize> = (0..boxes.len()).filter(|i| boxes[*i].is_some()).collect();
     let size = |i: usize| boxes[i].map_or(0.0, |(low, high)| (high - low).length());
     order.sort_by(|a, b| size(*a).total_cmp(&size(*b)).then(a.cmp(b)));
@@ -85,13 +85,21 @@ fn sample(geometry: &Geometry) -> Vec<DVec3> {
         order.pop();
         around.pop();
     }
-    let corners = |i: &usize| geometry.meshes[geometry.instances[*i].mesh as usize].positions.len();
+    let instances = &geometry.instances;
+    let of_solids: Vec<DVec3> = order
+        .iter()
+        .filter(|i| **i >= instances.len())
+        .filter_map(|i| boxes[*i])
+        .flat_map(box_corners)
+        .collect();
+    order.retain(|i| *i < instances.len());
+    let corners = |i: &usize| geometry.meshes[instances[*i].mesh as usize].positions.len();
     let total: usize = order.iter().map(corners).sum();
     let stride = total.div_ceil(SAMPLES).max(1);
     let mut points = Vec::with_capacity(total.min(SAMPLES) + 1);
     let mut skip = 0;
     for &i in &order {
-        let instance = &geometry.instances[i];
+        let instance = &instances[i];
         let positions = &geometry.meshes[instance.mesh as usize].positions;
         while skip < positions.len() {
             points.push(instance.world_from_mesh.transform_point3(positions[skip].as_dvec3()));
@@ -99,7 +107,16 @@ fn sample(geometry: &Geometry) -> Vec<DVec3> {
         }
         skip -= positions.len();
     }
+    points.extend(of_solids);
     points
+}
+
+/// The eight corners of a box.
+fn box_corners((low, high): (DVec3, DVec3)) -> impl Iterator<Item = DVec3> {
+    (0..8).map(move |i| {
+        let side = |bit: i32, axis: usize| if i >> bit & 1 == 0 { low[axis] } else { high[axis] };
+        DVec3::new(side(0, 0), side(1, 1), side(2, 2))
+    })
 }
 
 /// The points without the few that lie far outside: along each axis the middle 98 % and half their extent
@@ -141,7 +158,7 @@ mod tests {
     #[test]
     fn what_counts_fills_the_frame() {
         let geometry = placed(vec![quad(3.0)]);
-        let camera = frame(&geometry);
+        let camera = frame(&geometry, &[]);
         let Projection::Perspective { tan_half_height } = camera.projection else { panic!() };
         let mut fullest = 0.0f64;
         for p in &geometry.meshes[0].positions {
@@ -155,16 +172,16 @@ mod tests {
 
     #[test]
     fn a_huge_ground_does_not_count() {
-        let alone = frame(&placed(vec![quad(3.0)]));
-        assert_eq!(frame(&placed(vec![quad(3.0), quad(500.0)])), alone);
-        assert_ne!(frame(&placed(vec![quad(3.0), quad(6.0)])), alone);
+        let alone = frame(&placed(vec![quad(3.0)]), &[]);
+        assert_eq!(frame(&placed(vec![quad(3.0), quad(500.0)]), &[]), alone);
+        assert_ne!(frame(&placed(vec![quad(3.0), quad(6.0)]), &[]), alone);
     }
 
     #[test]
     fn nothing_and_a_point_are_framed_too() {
         let point = Mesh { positions: vec![Vec3::ZERO; 3], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         for geometry in [Geometry::default(), placed(vec![Mesh::default()]), placed(vec![point])] {
-            let camera = frame(&geometry);
+            let camera = frame(&geometry, &[]);
             assert!(camera.position.is_finite() && camera.near > 0.0);
         }
     }

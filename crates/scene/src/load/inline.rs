@@ -1,14 +1,21 @@
-//! Geometry that the scene file itself describes: boxes, planes, polygons, terrain.
+//! Geometry that the scene file itself describes: boxes, prisms, planes, polygons, terrain.
 
 use glam::{DAffine3, DVec3};
 use light::Mesh;
 
+use super::placement;
 use crate::document::Spot;
-use crate::file::{ModelTable, PolygonTable, TerrainTable};
+use crate::file::{ModelTable, PolygonTable, PrismTable, TerrainTable};
 use crate::{Error, Warning, triangulate};
 
-/// Longest side of a box or plane \[m\].
-const LONGEST: f64 = 1e7;
+/// Longest side of a box, plane or solid \[m\].
+pub(crate) const LONGEST: f64 = 1e7;
+
+/// Shortest side or radius of a solid or prism \[m\]: a nanometre. Shorter ones have no inverse that f64 holds.
+pub(crate) const SHORTEST: f64 = 1e-9;
+
+/// Most sides of a prism: its corners are those of a polyhedron, which has 128 at most.
+const MOST_SIDES: f64 = 64.0;
 
 /// Triangles about their own middle, so that f32 keeps them exact, and where that middle is.
 pub(crate) struct Inline {
@@ -46,6 +53,9 @@ pub(crate) fn geometry(
             spot.positive(side, LONGEST, "m")?;
         }
         return Ok(Some(cuboid_of(DVec3::new(x, y, z))));
+    }
+    if let Some(prism) = &table.prism {
+        return Ok(Some(prism_of(&prism_corners(&spot.key("prism"), prism)?)));
     }
     if let Some(plane) = &table.plane {
         let spot = spot.key("plane").key("size");
@@ -85,6 +95,28 @@ fn cuboid_of(size: DVec3) -> Inline {
         }
     }
     Inline::new(&corners, triangles)
+}
+
+/// Corners of a regular prism on y = 0: those of its base, counter-clockwise seen from above from the one at
+/// +x on, then those above them.
+pub(crate) fn prism_corners(spot: &Spot<'_>, table: &PrismTable) -> Result<Vec<DVec3>, Error> {
+    let sides = spot.key("sides").within(f64::from(table.sides), 3.0, MOST_SIDES, "")?;
+    let radius = spot.key("radius").within(table.radius, SHORTEST, LONGEST, "m")?;
+    let height = spot.key("height").within(table.height, SHORTEST, LONGEST, "m")?;
+    let corner = |i: u32| placement::rotation([0.0, 360.0 * f64::from(i) / sides, 0.0]) * DVec3::X * radius;
+    let base: Vec<DVec3> = (0..table.sides).map(corner).collect();
+    Ok(base.iter().copied().chain(base.iter().map(|c| *c + DVec3::Y * height)).collect())
+}
+
+/// Closed, faces seen from outside.
+fn prism_of(corners: &[DVec3]) -> Inline {
+    let sides = corners.len() as u32 / 2;
+    let caps = (1..sides - 1).flat_map(|i| [[0, i + 1, i], [sides, sides + i, sides + i + 1]]);
+    let walls = (0..sides).flat_map(|i| {
+        let next = (i + 1) % sides;
+        [[i, next, sides + next], [i, sides + next, sides + i]]
+    });
+    Inline::new(corners, caps.chain(walls).collect())
 }
 
 fn polygon_of(spot: &Spot<'_>, table: &PolygonTable) -> Result<Inline, Error> {
@@ -127,6 +159,21 @@ mod tests {
     use light::{Geometry, Instance};
 
     use super::*;
+
+    /// A prism over a square of radius 1 (area 2), 3 m high; corners of a quarter turn are exact.
+    #[test]
+    fn a_prism_is_closed_and_faces_outwards() {
+        let (x, z, up) = (DVec3::X, DVec3::Z, DVec3::Y * 3.0);
+        let base = [x, -z, -x, z];
+        let corners: Vec<DVec3> = base.into_iter().chain(base.map(|c| c + up)).collect();
+        let inline = prism_of(&corners);
+        let instance = Instance { mesh: 0, world_from_mesh: inline.placed(&DAffine3::IDENTITY) };
+        let geometry = Geometry { meshes: vec![inline.mesh], instances: vec![instance] };
+        let volume: f64 = (0..12).map(|i| geometry.triangle(0, i)).map(|t| t.0[0].dot(t.cross()) / 6.0).sum();
+        assert_eq!(volume, 6.0);
+        let area = (0..12).fold(DVec3::ZERO, |sum, i| sum + geometry.triangle(0, i).cross());
+        assert_eq!(area, DVec3::ZERO);
+    }
 
     #[test]
     fn a_box_is_closed_and_faces_outwards() {

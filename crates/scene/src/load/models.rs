@@ -39,11 +39,12 @@ pub(crate) fn add(
     spot.exactly_one(&[
         ("file", table.file.is_some()),
         ("box", table.cuboid.is_some()),
+        ("prism", table.prism.is_some()),
         ("plane", table.plane.is_some()),
         ("polygon", table.polygon.is_some()),
         ("terrain", table.terrain.is_some()),
     ])?;
-    let placement = placement::of_model(spot, table)?;
+    let placement = placement::affine(spot, table.position, table.rotation, table.scale)?;
     if let Some(name) = &table.file {
         if table.material.is_some() {
             let what = "is for inline geometry; change a file's materials in [model.materials.NAME]";
@@ -57,7 +58,10 @@ pub(crate) fn add(
         let what = "is for model files; inline geometry has the key material, the name of a [[material]]";
         return Err(spot.key("materials").error(what));
     }
-    let material = material_of(draft, spot, table, names)?;
+    let material = match &table.material {
+        None => draft.grey(),
+        Some(name) => material_named(spot, name, names)?,
+    };
     if let Some(inline) = inline::geometry(spot, table, &mut draft.warnings)? {
         let world_from_mesh = inline.placed(&placement);
         draft.add_mesh(Mesh { material, ..inline.mesh }, world_from_mesh);
@@ -71,9 +75,8 @@ pub(crate) fn add_file(draft: &mut Draft, path: &Path) -> Result<(), Error> {
     place(draft, &shelved, &DAffine3::IDENTITY)
 }
 
-/// Index of the material that inline geometry is made of.
-fn material_of(draft: &mut Draft, spot: &Spot<'_>, table: &ModelTable, names: &Names) -> Result<u32, Error> {
-    let Some(name) = &table.material else { return Ok(draft.grey()) };
+/// Index of the material that the key `material` of this table names.
+pub(crate) fn material_named(spot: &Spot<'_>, name: &str, names: &Names) -> Result<u32, Error> {
     names.get(name).copied().ok_or_else(|| {
         let known = list(names.keys().map(String::as_str));
         spot.key("material").error(format!("{name:?} is unknown; [[material]] tables define {known}"))
@@ -81,7 +84,7 @@ fn material_of(draft: &mut Draft, spot: &Spot<'_>, table: &ModelTable, names: &N
 }
 
 /// Names for a message, at most 40 of them.
-fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
+pub(crate) fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
     let mut names: Vec<&str> = names.collect();
     names.sort_unstable();
     names.dedup();

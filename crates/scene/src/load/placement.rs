@@ -4,12 +4,17 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::Error;
 use crate::document::Spot;
-use crate::file::{ModelTable, OneOrThree};
+use crate::file::OneOrThree;
 
-/// From a model's own coordinates to the file's: scale, then turn, then move.
-pub(crate) fn of_model(spot: &Spot<'_>, model: &ModelTable) -> Result<DAffine3, Error> {
-    let position = spot.key("position").point(model.position.unwrap_or_default())?;
-    let turn = match model.rotation {
+/// From the own coordinates of a model or solid to the file's: scale, then turn, then move.
+pub(crate) fn affine(
+    spot: &Spot<'_>,
+    position: Option<[f64; 3]>,
+    rotation_given: Option<OneOrThree>,
+    scale: Option<OneOrThree>,
+) -> Result<DAffine3, Error> {
+    let position = spot.key("position").point(position.unwrap_or_default())?;
+    let turn = match rotation_given {
         None => DMat3::IDENTITY,
         Some(given) => {
             let spot = spot.key("rotation");
@@ -23,12 +28,12 @@ pub(crate) fn of_model(spot: &Spot<'_>, model: &ModelTable) -> Result<DAffine3, 
             rotation(degrees)
         }
     };
-    let scale = match model.scale {
+    let scale = match scale {
         None => DVec3::ONE,
         Some(OneOrThree::One(s)) => DVec3::splat(s),
         Some(OneOrThree::Three(xyz)) => DVec3::from_array(xyz),
     };
-    // Below 1e-6 or above 1e6 the f32 coordinates of meshes and the inverse lose their digits.
+    // Below 1e-6 or above 1e6 the f32 coordinates of meshes and inverses lose their digits.
     if !scale.abs().to_array().iter().all(|s| (1e-6..=1e6).contains(s)) {
         let what = format!("{} is not possible: each factor must be within ±[1e-6, 1e6], not 0", show(scale));
         return Err(spot.key("scale").error(what));

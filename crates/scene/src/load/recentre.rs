@@ -3,8 +3,14 @@
 use glam::{DAffine3, DVec3};
 use light::{Geometry, Mesh};
 
+use crate::Solid;
+use crate::solid::Bounds;
+
 /// Scenes whose middle is nearer to zero than this stay where they are \[m\]: f32 is good to 0.03 mm there.
 const NEAR: f64 = 1000.0;
+
+/// A solid counts as many triangles as a box has.
+const SOLID_WEIGHT: u64 = 12;
 
 /// Box of a mesh in its own coordinates; none without corners.
 pub(crate) fn mesh_box(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
@@ -32,15 +38,25 @@ pub(crate) fn instance_boxes(geometry: &Geometry) -> Vec<Option<(DVec3, DVec3)>>
     geometry.instances.iter().map(placed).collect()
 }
 
+/// The box of everything that is placed: instances, then solids.
+pub(crate) fn all_boxes(geometry: &Geometry, solids: &[Solid]) -> Vec<Option<Bounds>> {
+    let mut boxes = instance_boxes(geometry);
+    boxes.extend(solids.iter().map(Solid::bounds));
+    boxes
+}
+
 /// What to subtract from all coordinates: the middle of the geometry in whole metres, or 0 if that is near.
 ///
 /// The middle is, for each axis, the median over the placed meshes' middles, each counted by its triangles:
-/// a stray thing far away does not move it. Without geometry the median of `others`.
-pub(crate) fn origin(geometry: &Geometry, others: &[DVec3]) -> DVec3 {
-    let boxes = instance_boxes(geometry);
-    let weighted = boxes.iter().zip(&geometry.instances).filter_map(|(placed, instance)| {
+/// a stray thing far away does not move it. A solid counts as a box. Without geometry the median of `others`.
+pub(crate) fn origin(geometry: &Geometry, solids: &[Solid], others: &[DVec3]) -> DVec3 {
+    let boxes = all_boxes(geometry, solids);
+    let triangles =
+        geometry.instances.iter().map(|i| geometry.meshes[i.mesh as usize].triangles.len().max(1));
+    let weights = triangles.map(|count| count as u64).chain(solids.iter().map(|_| SOLID_WEIGHT));
+    let weighted = boxes.iter().zip(weights).filter_map(|(placed, weight)| {
         let (low, high) = (*placed)?;
-        Some((0.5 * (low + high), geometry.meshes[instance.mesh as usize].triangles.len().max(1) as u64))
+        Some((0.5 * (low + high), weight))
     });
     let mut points: Vec<(DVec3, u64)> = weighted.collect();
     if points.is_empty() {
@@ -80,8 +96,8 @@ mod tests {
 
     #[test]
     fn near_scenes_stay_and_far_ones_move_by_whole_metres() {
-        assert_eq!(origin(&at(&[DVec3::new(900.0, 5.0, -900.0)]), &[]), DVec3::ZERO);
-        let far = origin(&at(&[DVec3::new(3.5e5 + 0.2, 41.3, -3.9e6 + 0.2)]), &[]);
+        assert_eq!(origin(&at(&[DVec3::new(900.0, 5.0, -900.0)]), &[], &[]), DVec3::ZERO);
+        let far = origin(&at(&[DVec3::new(3.5e5 + 0.2, 41.3, -3.9e6 + 0.2)]), &[], &[]);
         // The triangle's middle is half a metre from its corner: rounded to whole metres.
         assert_eq!(far, DVec3::new(350_001.0, 41.0, -3_900_000.0 + 1.0));
     }
@@ -90,13 +106,13 @@ mod tests {
     fn a_stray_thing_does_not_move_the_middle() {
         let mut points = vec![DVec3::ZERO; 5];
         points.push(DVec3::splat(1e7));
-        assert_eq!(origin(&at(&points), &[]), DVec3::ZERO);
+        assert_eq!(origin(&at(&points), &[], &[]), DVec3::ZERO);
     }
 
     #[test]
     fn without_geometry_the_rest_counts() {
-        assert_eq!(origin(&Geometry::default(), &[]), DVec3::ZERO);
-        assert_eq!(origin(&Geometry::default(), &[DVec3::splat(2e6)]), DVec3::splat(2e6));
+        assert_eq!(origin(&Geometry::default(), &[], &[]), DVec3::ZERO);
+        assert_eq!(origin(&Geometry::default(), &[], &[DVec3::splat(2e6)]), DVec3::splat(2e6));
     }
 
     #[test]
