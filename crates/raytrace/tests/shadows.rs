@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use keikan_raytrace::{Quality, World};
-use light::{Geometry, Instance, Mesh, Occlude, Opacity, PointSource, Stretch, rounding::UNIT};
+use light::{Geometry, Instance, Mesh, Occlude, Opacity, Place, PointSource, Stretch, rounding::UNIT};
 use proptest::prelude::*;
 
 fn geometry(meshes: Vec<Mesh>) -> Arc<Geometry> {
@@ -288,6 +288,79 @@ proptest! {
                 right(&faces, a.lerp(b, s), source, answer, apart(reach)),
                 "{s} of {a} to {b} from {source:?}: {answer}, {found:?}"
             );
+        }
+    }
+}
+
+/// The rays' own answer at the very place, whose error moves them off their face.
+fn by_ray(world: &World, at: DVec3, normal: DVec3, source: PointSource, reach: f64) -> bool {
+    let error = 4.0 * UNIT * reach as f32;
+    let place = Place { position: at.as_vec3(), error, normal: normal.as_vec3(), seed: 0 };
+    let ray = match source {
+        PointSource::At(lamp) => place.toward(lamp.as_vec3()),
+        PointSource::Toward(toward) => place.leave(toward.as_vec3(), f32::INFINITY),
+    };
+    world.transmittance(&ray).is_zero()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn rays_say_the_same_on_faces(
+        boxes in prop::collection::vec(((-5.0f32..5.0, 0.0f32..2.0, -5.0f32..5.0), 0.1f32..2.0, any::<bool>()), 1..12),
+        lamp in point(7.0), sun in any::<bool>(), seed in any::<u32>(),
+    ) {
+        // Boxes, some of them standing on the floor: corners of three kinds, faces that meet and overlap.
+        let mut faces = quad(FLOOR[0], FLOOR[1], FLOOR[2]).to_vec();
+        for ((x, y, z), size, stands) in boxes {
+            let low = [f64::from(x), if stands { 0.0 } else { f64::from(y) }, f64::from(z)];
+            faces.extend(cuboid(low, [f64::from(size); 3]).into_iter().map(|f| f.map(|c| c.as_vec3().as_dvec3())));
+        }
+        let world = World::build(geometry(vec![mesh(&faces)]), Quality::Medium);
+        let source = match sun {
+            true => PointSource::Toward(DVec3::new(lamp.x, lamp.y.abs() + 0.5, lamp.z).normalize()),
+            false => PointSource::At(DVec3::new(lamp.x, lamp.y.abs() + 0.5, lamp.z)),
+        };
+        let mut state = seed;
+        let mut random = || {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            f64::from(state >> 8) / f64::from(1u32 << 24)
+        };
+        for _ in 0..20 {
+            // A segment on some face, rims included.
+            let face = faces[(random() * faces.len() as f64) as usize];
+            let mut on = || face[0].lerp(face[1].lerp(face[2], random()), random());
+            let (a, b) = (on(), on());
+            let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
+            let toward = match source {
+                PointSource::At(lamp) => lamp - a,
+                PointSource::Toward(toward) => toward,
+            };
+            // Light along a face hardly arrives; there the way of a ray is as undecided as its start.
+            if (a - b).length() < 0.01 || (normal.dot(toward) / toward.length()).abs() < 0.01 {
+                continue;
+            }
+            let found = shadows(&world, source, a, b);
+            prop_assume!(found.iter().all(|stretch| stretch.dark));
+            let found: Vec<_> = found.iter().map(|stretch| (stretch.from, stretch.to)).collect();
+            for i in 0..50 {
+                let s = (f64::from(i) + 0.5) / 50.0;
+                let (at, reach) = (a.lerp(b, s), 50.0);
+                let (fan, ray) = (covered(&found, s), by_ray(&world, at, normal, source, reach));
+                if fan == ray {
+                    continue;
+                }
+                // A ray starts up to 4 u Σ|n| beside its place, its direction is off by 2 u and its test by 4 u of
+                // the distance. Where it disagrees, one of the points as near must give its answer.
+                let apart = 10.0 * f64::from(UNIT) * 3f64.sqrt() * (reach + 20.0);
+                let ends = [s - apart / 0.01 / (b - a).length(), s + apart / 0.01 / (b - a).length()];
+                let end = found.iter().any(|&(f, t)| [f, t].iter().any(|e| ends[0] <= *e && *e <= ends[1]));
+                prop_assert!(
+                    end || right(&faces, at, source, ray, apart),
+                    "{s} of {a} to {b} from {source:?}: fan {fan}, ray {ray}, {found:?}"
+                );
+            }
         }
     }
 }
