@@ -4,6 +4,7 @@ use std::fmt;
 
 use scene::{Camera, Scene};
 
+use crate::assemble::mirrors;
 use crate::knobs::{Preset, Settings};
 use crate::pipeline::Region;
 use crate::{Error, args};
@@ -117,7 +118,8 @@ impl Contents {
 
 /// A camera by name, or by its number from 1; the first without either.
 fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Error> {
-    let by_number = |text: &str| text.parse::<usize>().ok().and_then(|n| scene.cameras.get(n.checked_sub(1)?));
+    let by_number =
+        |text: &str| text.parse::<usize>().ok().and_then(|n| scene.cameras.get(n.checked_sub(1)?));
     let found = match wanted {
         None => scene.cameras.first(),
         Some(name) => scene.cameras.iter().find(|camera| camera.name == name).or_else(|| by_number(name)),
@@ -136,7 +138,8 @@ fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Erro
 fn size(camera: &Camera, asked: Option<args::Size>) -> Result<(u32, u32), Error> {
     let aspect = camera.aspect.unwrap_or(1.6);
     let asked = asked.unwrap_or(args::Size { width: 1280, height: None });
-    let height = asked.height.unwrap_or_else(|| (f64::from(asked.width) / aspect).round().clamp(1.0, 1e9) as u32);
+    let height =
+        asked.height.unwrap_or_else(|| (f64::from(asked.width) / aspect).round().clamp(1.0, 1e9) as u32);
     if u64::from(asked.width) * u64::from(height) > MOST_PIXELS {
         return Err(Error::Usage(format!(
             "--size {}x{height}: more than {MOST_PIXELS} pixels; render it in parts with --region",
@@ -166,6 +169,11 @@ pub(crate) fn sky_model<'a>(scene: &'a Scene, settings: &'a Settings) -> &'a str
     }
 }
 
+/// How many materials let light through.
+fn transparent(scene: &Scene) -> usize {
+    scene.materials.iter().filter(|material| material.medium().is_some()).count()
+}
+
 fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> {
     let stage = |question, answer: &str, why: String| Stage { question, answer: answer.to_owned(), why };
     let see = match settings.choice("visibility") {
@@ -175,23 +183,36 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
             "scanline",
             format!(
                 "{} triangles, {} of them cut out by alpha; {} sub-scanlines",
-                contents.triangles, contents.cut_out_triangles, settings.choice("sub-scanlines")
+                contents.triangles,
+                contents.cut_out_triangles,
+                settings.choice("sub-scanlines")
             ),
         ),
     };
-    let shade = stage("shade", "surface", format!("{} materials", contents.materials));
+    let traced = match (scene.materials.iter().filter(|m| mirrors(m)).count(), transparent(scene)) {
+        (0, 0) => String::new(),
+        (mirrors, 0) => format!("; rays from {mirrors} that mirror"),
+        (mirrors, bodies) => format!("; rays from {mirrors} that mirror, {bodies} transparent"),
+    };
+    let shade = stage("shade", "surface", format!("{} materials{traced}", contents.materials));
     let sun = match &scene.sun {
         Some(sun) if sun.altitude > -1.0 => stage(
             "illuminate",
             "sun",
             format!("{:.2}° high, azimuth {:.2}°, disc of {:.3}°", sun.altitude, sun.azimuth, sun.diameter),
         ),
-        Some(sun) => stage("illuminate", "", format!("no sun: it is {:.2}° below the horizon", -sun.altitude)),
+        Some(sun) => {
+            stage("illuminate", "", format!("no sun: it is {:.2}° below the horizon", -sun.altitude))
+        }
         None => stage("illuminate", "", "no sun: the scene has none".to_owned()),
     };
     let sky = match sky_model(scene, settings) {
         "none" => stage("illuminate", "", "no sky: none is asked for".to_owned()),
-        model => stage("illuminate", &format!("sky {model}"), format!("{} rays a place", settings.choice("sky.rays"))),
+        model => stage(
+            "illuminate",
+            &format!("sky {model}"),
+            format!("{} rays a place", settings.choice("sky.rays")),
+        ),
     };
     let lamps = match scene.lights.len() {
         0 => stage("illuminate", "", "no luminaires: the scene has none".to_owned()),
@@ -201,7 +222,11 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
     let occlude = match (settings.choice("shadows"), lit) {
         (_, false) => stage("occlude", "", "no shadows: there is no light".to_owned()),
         ("off", _) => stage("occlude", "", "no shadows: shadows = off".to_owned()),
-        _ => stage("occlude", &format!("rays ({})", settings.choice("accelerate")), "something is lit".to_owned()),
+        _ => stage(
+            "occlude",
+            &format!("rays ({})", settings.choice("accelerate")),
+            "something is lit".to_owned(),
+        ),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
     for (what, chapter) in [("water", "no [[water]]"), ("trees", "no [[tree]]")] {
@@ -212,7 +237,11 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "camera {}, {} x {} pixels, preset {:?}", self.camera, self.width, self.height, self.preset)?;
+        writeln!(
+            f,
+            "camera {}, {} x {} pixels, preset {:?}",
+            self.camera, self.width, self.height, self.preset
+        )?;
         let c = &self.contents;
         writeln!(
             f,

@@ -2,8 +2,8 @@
 //!
 //! **Answers.** [`World`] is a scene made ready for rays. It answers [`light::Nearest`] (the first hit of a
 //! ray) and [`light::Occlude`] (what of the light along a segment arrives: 0 behind a solid face, 1 − opacity
-//! through each face with an alpha texture). [`Rays`] answers [`light::See`] with jittered rays through each
-//! pixel. [`BruteForce`] answers the first two without any hierarchy, slowly, in f64.
+//! through each face with an alpha texture, [`through`] for a transparent body). [`Rays`] answers [`light::See`]
+//! with jittered rays through each pixel. [`BruteForce`] answers the first two without any hierarchy, slowly, in f64.
 //!
 //! **Promises.** No ray passes between two triangles that share an edge or a corner, axis-parallel rays and
 //! grazing ones included. No ray that has left a surface by [`light::Place::leave`] meets that surface again.
@@ -44,9 +44,11 @@ mod quality;
 mod query;
 mod rays;
 mod reference;
+mod shadow;
 mod shot;
 pub mod solid;
 pub mod surface;
+mod transmit;
 mod tree;
 mod triangle;
 mod walk;
@@ -56,4 +58,5 @@ pub use quality::Quality;
 pub use query::Met;
 pub use rays::Rays;
 pub use reference::BruteForce;
+pub use transmit::{Crossing, pane, through};
 pub use world::{Stats, World};

@@ -6,6 +6,7 @@ use light::{Geometry, Hit, Mesh, Nearest, Occlude, PointSource, Ray, Spectrum, S
 use crate::{
     collapse::WIDTH,
     lanes::Lanes,
+    shadow::Shadow,
     shot::Shot,
     tree::{Faces, Name},
     triangle::{self, Crossing, candidates, cross},
@@ -24,7 +25,7 @@ pub struct Met {
     pub triangle: u32,
     /// Weights of the second and third corner, to f32 accuracy.
     pub weights: DVec2,
-    /// Whether the mesh has an opacity of its own.
+    /// Whether light may pass: the mesh has an opacity or a medium of its own.
     pub alpha: bool,
 }
 
@@ -253,27 +254,6 @@ impl Ask for First {
     }
 }
 
-/// The share of light that is let through.
-pub(crate) struct Shadow {
-    /// Of what has been met so far; f64, so that the order of the product does not show in f32.
-    pub(crate) through: f64,
-}
-
-impl Ask for Shadow {
-    const ORDERED: bool = false;
-
-    #[inline(always)]
-    fn meet(&mut self, met: Met, geometry: &Geometry, _: &mut f32) -> bool {
-        if met.alpha {
-            let mesh = &geometry.meshes[geometry.instances[met.instance as usize].mesh as usize];
-            self.through *= 1.0 - f64::from(opacity(mesh, met.triangle, met.weights));
-        } else {
-            self.through = 0.0;
-        }
-        self.through == 0.0
-    }
-}
-
 /// A ray's line in f64.
 pub(crate) fn line(ray: &Ray) -> (DVec3, DVec3) {
     (ray.origin.as_dvec3(), ray.direction.as_dvec3())
@@ -307,9 +287,9 @@ impl Nearest for World {
 
 impl Occlude for World {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
-        let mut through = Shadow { through: 1.0 };
-        self.ask(line(segment), 0.0, segment.length, &mut through);
-        Spectrum::splat(through.through as f32)
+        let mut shadow = Shadow::new(line(segment).1);
+        self.ask(line(segment), 0.0, segment.length, &mut shadow);
+        shadow.through(&self.geometry, segment)
     }
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {

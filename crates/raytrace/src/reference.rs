@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use light::{Geometry, Hit, Nearest, Occlude, Ray, Spectrum, Triangle};
 
-use crate::query::{Ask, First, Met, Shadow, line};
+use crate::query::{Ask, First, Met, line};
+use crate::shadow::Shadow;
 
 /// All triangles in world coordinates, in f64. Answers in time proportional to their number.
 #[derive(Clone, Debug)]
@@ -41,7 +42,13 @@ impl BruteForce {
                 continue;
             }
             let mesh = &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize];
-            let met = Met { t, instance, triangle, weights, alpha: mesh.opacity.is_some() };
+            let met = Met {
+                t,
+                instance,
+                triangle,
+                weights,
+                alpha: mesh.opacity.is_some() || mesh.medium.is_some(),
+            };
             if ask.meet(met, &self.geometry, &mut reach) {
                 return;
             }
@@ -66,8 +73,8 @@ impl Nearest for BruteForce {
 
 impl Occlude for BruteForce {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
-        let mut shadow = Shadow { through: 1.0 };
+        let mut shadow = Shadow::new(line(segment).1);
         self.ask(segment, &mut shadow);
-        Spectrum::splat(shadow.through as f32)
+        shadow.through(&self.geometry, segment)
     }
 }

@@ -113,7 +113,7 @@ pub(crate) struct Name {
     pub(crate) instance: u32,
     /// Index within the mesh.
     pub(crate) triangle: u32,
-    /// Whether the mesh has an opacity of its own.
+    /// Whether the mesh has an opacity or a medium of its own: light may pass.
     pub(crate) alpha: bool,
 }
 

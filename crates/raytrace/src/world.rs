@@ -142,7 +142,7 @@ fn standing(geometry: &Geometry, shared: &[bool], quality: Quality, dropped: &mu
             continue;
         }
         let mesh = &geometry.meshes[instance.mesh as usize];
-        let alpha = mesh.opacity.is_some();
+        let alpha = mesh.opacity.is_some() || mesh.medium.is_some();
         for t in 0..mesh.triangles.len() as u32 {
             let world = geometry.triangle(i as u32, t).0;
             if usable(&world) {
@@ -158,7 +158,7 @@ fn standing(geometry: &Geometry, shared: &[bool], quality: Quality, dropped: &mu
 
 /// A mesh in its own coordinates, and how many of its triangles were dropped.
 fn model(mesh: &Mesh, quality: Quality) -> (Faces, usize) {
-    let alpha = mesh.opacity.is_some();
+    let alpha = mesh.opacity.is_some() || mesh.medium.is_some();
     let (mut corners, mut names) = (Vec::new(), Vec::new());
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         let own: [Vec3; 3] = triangle.map(|i| mesh.positions[i as usize]);

@@ -3,29 +3,42 @@
 use std::sync::Arc;
 
 use light::{Shade, Texture};
-use raytrace::surface::{Finish, Image, NormalMap, Surface};
+use raytrace::surface::{Finish, Glass, Image, NO_MIRROR, NormalMap, Surface};
 use scene::{Material, UvTransform};
 
-/// The shader of a material.
-///
-/// Transparent bodies (transmission) are shaded by their surface alone until local ray tracing is there.
+/// The shader of a material: a surface, or where light passes it, that of a transparent body.
 pub(super) fn shade(material: &Material) -> Box<dyn Shade> {
-    Box::new(Surface::new(Finish {
+    match material.medium() {
+        Some(medium) => Box::new(Glass::new(finish(material), medium)),
+        None => Box::new(Surface::new(finish(material))),
+    }
+}
+
+/// Whether a material is smooth enough for mirror rays, all or some of the way.
+pub(crate) fn mirrors(material: &Material) -> bool {
+    let reflects = material.metallic > 0.0 || material.normal_reflectance().max_element() > 0.0;
+    reflects && material.roughness < NO_MIRROR
+}
+
+fn finish(material: &Material) -> Finish {
+    Finish {
         base_colour: material.base_colour,
         base_texture: material.base_texture.as_ref().map(image),
         metallic: material.metallic,
         roughness: material.roughness,
         metallic_roughness_texture: material.metallic_roughness_texture.as_ref().map(image),
-        normal_map: material
-            .normal_map
-            .as_ref()
-            .map(|map| NormalMap { image: image(&(Arc::clone(&map.texture), map.transform)), scale: map.scale }),
+        normal_map: material.normal_map.as_ref().map(|map| NormalMap {
+            image: image(&(Arc::clone(&map.texture), map.transform)),
+            scale: map.scale,
+        }),
         emission: material.emission,
         emission_texture: material.emission_texture.as_ref().map(image),
         ior: index(material.normal_reflectance().element_sum() / 3.0),
         diffuse_transmission: material.diffuse_transmission,
         diffuse_transmission_colour: material.diffuse_transmission_colour,
-    }))
+        // The medium says how much passes.
+        transmission: 0.0,
+    }
 }
 
 /// The index whose interface reflects `f0` head on: files state both, and the reflectance wins

@@ -3,6 +3,8 @@
 mod lights;
 mod materials;
 
+pub(crate) use materials::mirrors;
+
 use std::sync::Arc;
 
 use light::{Geometry, Nearest, Occlude, Product, See, View};

@@ -61,6 +61,9 @@ pub struct Finish {
     pub diffuse_transmission: f32,
     /// Its colour, linear sRGB within \[0, 1\].
     pub diffuse_transmission_colour: Vec3,
+    /// Share of the light below the surface that goes on as it is, unscattered, within \[0, 1\]. A [`Surface`]
+    /// leaves it out; [`super::Glass`] follows it.
+    pub transmission: f32,
 }
 
 impl Default for Finish {
@@ -77,6 +80,7 @@ impl Default for Finish {
             ior: 1.5,
             diffuse_transmission: 0.0,
             diffuse_transmission_colour: Vec3::ONE,
+            transmission: 0.0,
         }
     }
 }
@@ -154,6 +158,7 @@ impl Surface {
             roughness: sound(finish.roughness, 1.0),
             ior,
             diffuse_transmission: sound(finish.diffuse_transmission, 0.0).clamp(0.0, 1.0),
+            transmission: sound(finish.transmission, 0.0).clamp(0.0, 1.0),
             ..finish
         };
         Self { finish, boundary: Albedo::dielectric(ior) }

@@ -1,7 +1,7 @@
-//! Opaque surfaces: what leaves a hit that needs no refraction (thesis eq. 2.1 in physical units).
+//! Surfaces: what leaves a hit (thesis eq. 2.1 in physical units).
 //!
-//! **Answers** [`light::Shade`] twice: [`Surface`], the metals and dielectrics that glTF files describe, and
-//! [`Phong`], the thesis' own. The thesis writes
+//! **Answers** [`light::Shade`] three times: [`Surface`], the metals and dielectrics that glTF files describe,
+//! [`Phong`], the thesis' own, and [`Glass`], the surface of a transparent body. The thesis writes
 //!
 //!   I = I_a + k_d Σ (L·N) t I_L + k_s S + k_t T
 //!
@@ -11,9 +11,9 @@
 //!
 //!   L = L_e + Σ f(i) cos θ_i E_i + R_diffuse E_f/π + R_specular ((1 − w) E_f/π + w L_m)
 //!
-//! k_t T, transparent bodies, are answered elsewhere.
+//! k_t T is added by [`Glass`].
 //!
-//! **Leaves out.** Refraction, layers of lacquer, anisotropy, sheen, subsurface scattering but for leaves
+//! **Leaves out.** Layers of lacquer, anisotropy, sheen, subsurface scattering but for leaves
 //! ([`Finish::diffuse_transmission`]).
 //!
 //! **Known to be wrong.** Of extended light a surface knows only how much arrives, not whence: its
@@ -24,10 +24,13 @@
 
 mod albedo;
 mod finish;
+mod glass;
 mod lobe;
 mod normals;
 mod phong;
 mod shading;
 
 pub use finish::{Finish, Image, NormalMap, Surface};
+pub use glass::Glass;
 pub use phong::Phong;
+pub use shading::NO_MIRROR;

@@ -13,7 +13,7 @@ use super::normals::{facing, shading_normal, terminator};
 /// Roughness up to which the specular share of extended light is that of the mirror ray alone.
 const ALL_MIRROR: f32 = 0.25;
 /// Roughness from which no mirror ray is sent.
-const NO_MIRROR: f32 = 0.4;
+pub const NO_MIRROR: f32 = 0.4;
 
 /// Luminance of linear sRGB (IEC 61966-2-1).
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
@@ -50,7 +50,7 @@ impl<'a> Local<'a> {
         let at = Fraction::of_roughness(roughness);
         let cos_out = normal.dot(hit.toward_eye);
         let boundary = &*surface.boundary;
-        let matt = 1.0 - metallic;
+        let matt = (1.0 - metallic) * (1.0 - finish.transmission);
         Self {
             normal,
             out: hit.toward_eye,
@@ -149,7 +149,8 @@ fn mirror_direction(local: &Local) -> Vec3 {
 impl Surface {
     /// Radiance that comes through from light behind: leaves against the sun.
     fn through(&self, local: &Local, place: &Place, around: &dyn Surroundings) -> Spectrum {
-        let share = self.finish.diffuse_transmission * (1.0 - local.metallic);
+        let share =
+            self.finish.diffuse_transmission * (1.0 - local.metallic) * (1.0 - self.finish.transmission);
         if share <= 0.0 {
             return Spectrum::ZERO;
         }
@@ -176,8 +177,25 @@ impl Surface {
     }
 }
 
-impl Shade for Surface {
-    fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
+/// What a surface leaves to a mirror ray.
+pub(crate) struct Mirrored {
+    /// Where it goes: above the face, unit.
+    pub(crate) direction: Vec3,
+    /// Share of its radiance that is added.
+    pub(crate) share: Spectrum,
+    /// Share that the boundary of the dielectric reflects for even light all around, without the metal.
+    pub(crate) boundary: f32,
+    /// Share of the area that is metal.
+    pub(crate) metallic: f32,
+    /// Whether the whole of the specular share is the mirror ray's.
+    pub(crate) whole: bool,
+    /// Normal for shading.
+    pub(crate) normal: Vec3,
+}
+
+impl Surface {
+    /// All that leaves `hit` but for the mirror ray, and what that would add.
+    pub(crate) fn without_mirror(&self, hit: &Hit, around: &dyn Surroundings) -> (Spectrum, Mirrored) {
         let local = Local::new(self, hit);
         let place = facing(&hit.place, local.normal);
         let mut field = Spectrum::ZERO;
@@ -192,13 +210,33 @@ impl Shade for Surface {
         let mirror = mirrored(local.roughness);
         let even = local.diffuse_share() + specular * (1.0 - mirror);
         radiance += field * even * FRAC_1_PI;
-        let largest = specular.max() * mirror;
-        if largest > 0.0 {
-            let ray = hit.place.leave(mirror_direction(&local), f32::INFINITY);
-            radiance += around.radiance(&ray, hit.path.then(largest.min(1.0))) * specular * mirror;
-        }
-        radiance + self.through(&local, &place, around)
+        let mirrored = Mirrored {
+            direction: mirror_direction(&local),
+            share: specular * mirror,
+            boundary: local.boundary.at(local.normal.dot(local.out), local.at),
+            metallic: local.metallic,
+            whole: mirror == 1.0,
+            normal: local.normal,
+        };
+        (radiance + self.through(&local, &place, around), mirrored)
     }
+}
+
+impl Shade for Surface {
+    fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
+        let (radiance, mirrored) = self.without_mirror(hit, around);
+        radiance + follow(hit, mirrored.direction, mirrored.share, around)
+    }
+}
+
+/// What a further ray from `hit` adds, `share` of its radiance.
+pub(crate) fn follow(hit: &Hit, direction: Vec3, share: Spectrum, around: &dyn Surroundings) -> Spectrum {
+    let largest = share.max();
+    if largest <= 0.0 {
+        return Spectrum::ZERO;
+    }
+    let ray = hit.place.leave(direction, f32::INFINITY);
+    around.radiance(&ray, hit.path.then(largest.min(1.0))) * share
 }
 
 #[cfg(test)]
