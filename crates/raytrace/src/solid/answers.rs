@@ -6,10 +6,10 @@ use light::{
 };
 
 use super::{
-    Acceleration, Crossing, Solids,
+    Acceleration, Crossing, Ready, Solids,
     csg::{Compound, Wall},
     member::U,
-    shadow::Fan,
+    shadow::{Fan, MARGIN, Shadow},
 };
 
 impl Compound {
@@ -167,6 +167,33 @@ impl Nearest for Solids {
     }
 }
 
+impl Fan {
+    /// What is behind a body's hulls is to be asked for, what is behind its cores is dark.
+    fn stretches(&self, body: &Ready, out: &mut Vec<Stretch>) {
+        let mut lamp = false;
+        for shell in &body.shells {
+            let (from, to) = match self.shadow(shell, &body.bounds, MARGIN) {
+                Shadow::Nothing => continue,
+                Shadow::Stretch(from, to) => (from, to),
+                Shadow::Lamp => {
+                    lamp = true;
+                    (0.0, 1.0)
+                }
+            };
+            out.push(Stretch { from, to, dark: false });
+        }
+        // With a lamp and a place both in the body there need be no wall between them.
+        if lamp {
+            return;
+        }
+        for core in &body.cores {
+            if let Shadow::Stretch(from, to) = self.shadow(core, &body.bounds, -MARGIN) {
+                out.push(Stretch { from, to, dark: true });
+            }
+        }
+    }
+}
+
 impl Occlude for Solids {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let line = line(segment);
@@ -184,14 +211,7 @@ impl Occlude for Solids {
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
         let fan = Fan::new(source, a, b);
-        let mut visit = |body: u32| {
-            let ready = &self.bodies[body as usize];
-            for shell in &ready.shells {
-                if let Some((from, to)) = fan.shadow(shell, &ready.bounds) {
-                    out.push(Stretch { from, to, dark: false });
-                }
-            }
-        };
+        let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], out);
         match self.acceleration {
             Acceleration::Boxes => self.boxes.within(fan.bounds(), visit),
             Acceleration::None => (0..self.bodies.len() as u32).for_each(&mut visit),

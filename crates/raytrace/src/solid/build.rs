@@ -20,6 +20,8 @@ struct Part {
     bounds: Bounds,
     /// Polyhedra around it, placed.
     hulls: Vec<Solid>,
+    /// Polyhedra that lie wholly in it, placed.
+    cores: Vec<Solid>,
 }
 
 /// Collects members while walking down a tree.
@@ -38,15 +40,19 @@ impl Walk {
                 let member = Member::new(shape, *world_from_solid, *material, positive)?;
                 let hulls = vec![member.hull.placed(world_from_solid)];
                 let bounds = bounds(&member, &hulls[0]);
+                let cores = vec![member.core.placed(world_from_solid)];
                 self.members.push(member);
-                Ok(Part { expression: Expression::Member(self.members.len() - 1), bounds, hulls })
+                Ok(Part { expression: Expression::Member(self.members.len() - 1), bounds, hulls, cores })
             }
             Node::Union(nodes) => {
                 let parts = self.parts(nodes, 0, positive)?;
-                let mut all = Part { expression: any(&parts), bounds: Bounds::EMPTY, hulls: Vec::new() };
+                let expression = any(&parts);
+                let mut all =
+                    Part { expression, bounds: Bounds::EMPTY, hulls: Vec::new(), cores: Vec::new() };
                 for part in parts {
                     all.bounds = all.bounds.union(part.bounds);
                     all.hulls.extend(part.hulls);
+                    all.cores.extend(part.cores);
                 }
                 Ok(all)
             }
@@ -58,13 +64,14 @@ impl Walk {
                 let volume = |part: &Part| part.hulls.iter().map(Solid::volume).sum::<f64>();
                 let least = parts.into_iter().min_by(|a, b| volume(a).total_cmp(&volume(b)));
                 let (least, bounds) = least.zip(bounds).ok_or(Wrong::NoMembers)?;
-                Ok(Part { expression, bounds, hulls: least.hulls })
+                Ok(Part { expression, bounds, hulls: least.hulls, cores: Vec::new() })
             }
             Node::Difference(whole, cuts) => {
                 let whole = self.parts(std::slice::from_ref(&**whole), 0, positive)?;
                 let cuts = self.parts(cuts, 1, !positive)?.into_iter().map(|part| part.expression).collect();
                 let whole = whole.into_iter().next().ok_or(Wrong::NoMembers)?;
-                Ok(Part { expression: Expression::Without(Box::new(whole.expression), cuts), ..whole })
+                let expression = Expression::Without(Box::new(whole.expression), cuts);
+                Ok(Part { expression, cores: Vec::new(), ..whole })
             }
         }
     }
@@ -138,13 +145,16 @@ pub(crate) fn solids(bodies: Vec<Body>, first_instance: u32) -> Result<Solids, F
         }
         let bounds = if part.bounds.is_empty() { Bounds::EMPTY } else { part.bounds.padded() };
         let shells = part.hulls.iter().map(planes).collect();
+        // What light passes through has no core that keeps it off.
+        let opaque = body.medium.is_none();
+        let cores = part.cores.iter().filter(|_| opaque).map(planes).collect();
         hulls.extend(part.hulls.into_iter().map(|solid| Hull {
             body: index as u32,
             corners: solid.corners,
             faces: solid.faces,
         }));
         let compound = Compound { members: walk.members, expression: part.expression };
-        ready.push(Ready { compound, medium: body.medium, bounds, shells });
+        ready.push(Ready { compound, medium: body.medium, bounds, shells, cores });
     }
     let bounds: Vec<Bounds> = ready.iter().map(|body| body.bounds).collect();
     let boxes = Boxes::new(&bounds);

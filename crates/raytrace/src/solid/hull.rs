@@ -48,16 +48,26 @@ impl Solid {
 
 /// Around the unit ball: of the Platonic solids the icosahedron wastes least. Its mean outline (a quarter of
 /// its surface, Cauchy) is 3.791 against the ball's π, 21 % more; a cube's is 6.
-pub(crate) fn icosahedron() -> Solid {
-    let golden = (1.0 + 5f64.sqrt()) / 2.0;
-    // Corners (0, ±1, ±φ) and their rotations have edges of 2 and faces at distance φ²/√3.
-    let scale = (1.0 + MARGIN) * 3f64.sqrt() / (golden * golden);
+pub(crate) fn around_ball() -> Solid {
+    // With corners (0, ±1, ±φ) and their rotations, the faces are at distance φ²/√3.
+    icosahedron((1.0 + MARGIN) * 3f64.sqrt() / (GOLDEN * GOLDEN))
+}
+
+/// Within the unit ball.
+pub(crate) fn within_ball() -> Solid {
+    icosahedron((1.0 - MARGIN) / (1.0 + GOLDEN * GOLDEN).sqrt())
+}
+
+const GOLDEN: f64 = 1.618_033_988_749_895;
+
+/// Corners `scale` (0, ±1, ±φ) and their rotations; edges of 2 `scale`.
+fn icosahedron(scale: f64) -> Solid {
     let mut solid = Solid::default();
     for axis in 0..3 {
         for (one, phi) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
             let mut corner = [0.0; 3];
             corner[(axis + 1) % 3] = one * scale;
-            corner[(axis + 2) % 3] = phi * golden * scale;
+            corner[(axis + 2) % 3] = phi * GOLDEN * scale;
             solid.corners.push(DVec3::from(corner));
         }
     }
@@ -79,26 +89,39 @@ pub(crate) fn icosahedron() -> Solid {
 }
 
 /// Around a cylinder, cone or truncated cone: squares about its two circles.
-pub(crate) fn frustum(top: f64) -> Solid {
-    let wide = 1.0 + MARGIN;
-    let square = |half: f64, y: f64| {
-        [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z)| DVec3::new(x * half, y, z * half))
+pub(crate) fn around_frustum(top: f64) -> Solid {
+    // A square about a circle has its corners √2 out. The tip is where the sides, moved outwards, meet.
+    let wide = 2f64.sqrt() * (1.0 + MARGIN);
+    let tip = if top == 0.0 { 2.0 * MARGIN } else { MARGIN };
+    tapered(4, [wide, wide * top], [-MARGIN, 1.0 + tip])
+}
+
+/// Within one: octagons in its two circles.
+pub(crate) fn within_frustum(top: f64) -> Solid {
+    let wide = 1.0 - 4.0 * MARGIN;
+    tapered(8, [wide, wide * top], [MARGIN, 1.0 - 2.0 * MARGIN])
+}
+
+/// Regular polygons about the y axis, their corners at these radii and heights, joined.
+fn tapered(sides: u32, radii: [f64; 2], heights: [f64; 2]) -> Solid {
+    let ring = |level: usize| {
+        (0..sides).map(move |i| {
+            // From +x to −z: counter-clockwise seen from above.
+            let (sin, cos) = (std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(sides)).sin_cos();
+            DVec3::new(radii[level] * cos, heights[level], -radii[level] * sin)
+        })
     };
-    let mut solid = Solid { corners: square(wide, -MARGIN).to_vec(), faces: Vec::new() };
-    // Counter-clockwise from above is −x−z, −x+z, +x+z, +x−z; from below the other way.
-    solid.fan(&[0, 3, 2, 1]);
-    if top == 0.0 {
-        // Where the sides, moved outwards, meet.
-        solid.corners.push(DVec3::new(0.0, 1.0 + 2.0 * MARGIN, 0.0));
-        for i in 0..4 {
-            solid.faces.push([i, (i + 1) % 4, 4]);
-        }
+    let mut solid = Solid { corners: ring(0).collect(), faces: Vec::new() };
+    solid.fan(&(0..sides).rev().collect::<Vec<u32>>());
+    if radii[1] == 0.0 {
+        solid.corners.push(DVec3::Y * heights[1]);
+        solid.faces.extend((0..sides).map(|i| [i, (i + 1) % sides, sides]));
     } else {
-        solid.corners.extend(square(top * wide, 1.0 + MARGIN));
-        solid.fan(&[4, 5, 6, 7]);
-        for i in 0..4 {
-            let next = (i + 1) % 4;
-            solid.fan(&[i, next, next + 4, i + 4]);
+        solid.corners.extend(ring(1));
+        solid.fan(&(sides..2 * sides).collect::<Vec<u32>>());
+        for i in 0..sides {
+            let next = (i + 1) % sides;
+            solid.fan(&[i, next, next + sides, i + sides]);
         }
     }
     solid

@@ -22,6 +22,8 @@ pub(crate) struct Member {
     pub(crate) surface: Surface,
     /// Around the shape, in its own coordinates.
     pub(crate) hull: Solid,
+    /// Within the shape, likewise.
+    pub(crate) core: Solid,
     /// Centre and radius of a ball around the shape, in its own coordinates.
     pub(crate) ball: (DVec3, f64),
     pub(crate) world_from_solid: DAffine3,
@@ -61,7 +63,7 @@ impl Member {
         material: u32,
         positive: bool,
     ) -> Result<Self, Wrong> {
-        let (surface, hull) = prepare(shape)?;
+        let (surface, hull, core) = prepare(shape)?;
         let ball = match surface {
             Surface::Ball => (DVec3::ZERO, 1.0),
             _ => hull.ball(),
@@ -93,6 +95,7 @@ impl Member {
         Ok(Self {
             surface,
             hull,
+            core,
             ball,
             world_from_solid,
             solid_from_world,
@@ -159,10 +162,14 @@ fn frobenius(m: &DMat3) -> f64 {
     (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }
 
-fn prepare(shape: &Shape) -> Result<(Surface, Solid), Wrong> {
-    let frustum = |top: f64| Ok((Surface::Frustum { taper: 1.0 - top }, hull::frustum(top)));
+/// Its surface, a polyhedron around it and one within it.
+fn prepare(shape: &Shape) -> Result<(Surface, Solid, Solid), Wrong> {
+    let frustum = |top: f64| {
+        let surface = Surface::Frustum { taper: 1.0 - top };
+        Ok((surface, hull::around_frustum(top), hull::within_frustum(top)))
+    };
     match shape {
-        Shape::Sphere => Ok((Surface::Ball, hull::icosahedron())),
+        Shape::Sphere => Ok((Surface::Ball, hull::around_ball(), hull::within_ball())),
         Shape::Cylinder => frustum(1.0),
         Shape::Cone => frustum(0.0),
         Shape::Frustum { top } if top.is_finite() && *top >= 0.0 => frustum(*top),
@@ -177,7 +184,7 @@ fn prepare(shape: &Shape) -> Result<(Surface, Solid), Wrong> {
             let planes: Option<Vec<Plane>> = planes.iter().map(unit).collect();
             let planes = planes.ok_or(Wrong::Plane)?;
             let hull = hull::polyhedron(&planes)?;
-            Ok((Surface::Planes(planes.into()), hull))
+            Ok((Surface::Planes(planes.into()), hull.clone(), hull))
         }
     }
 }

@@ -101,6 +101,8 @@ struct Ready {
     bounds: Bounds,
     /// The planes of each of its hulls.
     shells: Vec<Box<[Plane]>>,
+    /// The planes of polyhedra within it that keep all light off.
+    cores: Vec<Box<[Plane]>>,
 }
 
 /// Where a line enters or leaves a body.

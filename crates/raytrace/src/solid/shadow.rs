@@ -35,49 +35,62 @@ impl Fan {
         }
     }
 
-    /// The stretch of the segment that a convex polyhedron within `bounds` may keep in the dark.
-    pub(crate) fn shadow(&self, planes: &[Plane], bounds: &Bounds) -> Option<(f64, f64)> {
-        let reach = bounds.low.abs().max(bounds.high.abs()).max_element();
-        let size = self.a.abs().max(self.b.abs()).max_element().max(reach);
-        // Everything here rounds far below this; a shadow larger by it costs nothing.
-        let pad = 1e-12 * size;
-        let (corner, u, v, mut polygon) = match self.source {
-            PointSource::At(p) => (p, self.a - p, self.b - p, vec![DVec2::ZERO, DVec2::X, DVec2::Y]),
-            PointSource::Toward(way) => {
-                // Farther than the polyhedron from any point of the segment.
-                let far = 4.0 * size;
-                let way = way * far;
-                (self.a, way, self.b - self.a, vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y])
-            }
+    /// What a convex polyhedron within `bounds`, larger than it is by a share `margin` of the coordinates
+    /// (negative: smaller), keeps the light off.
+    pub(crate) fn shadow(&self, planes: &[Plane], bounds: &Bounds, margin: f64) -> Shadow {
+        let reach = |p: DVec3| p.abs().max_element();
+        let size = reach(bounds.low).max(reach(bounds.high)).max(reach(self.a)).max(reach(self.b));
+        let (corner, u, v, lamp) = match self.source {
+            PointSource::At(p) => (p, self.a - p, self.b - p, reach(p)),
+            // Farther than the polyhedron from any point of the segment.
+            PointSource::Toward(way) => (self.a, way * 4.0 * size, self.b - self.a, 0.0),
         };
-        let lamp = if let PointSource::At(p) = self.source { p.abs().max_element() } else { 0.0 };
-        let pad = pad.max(1e-12 * lamp);
+        let sun = matches!(self.source, PointSource::Toward(_));
+        let mut polygon = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+        if sun {
+            polygon.insert(2, DVec2::ONE);
+        }
+        let pad = margin * size.max(lamp);
         for plane in planes {
-            let (height, along) = (
-                plane.normal.dot(corner) - plane.offset - pad,
-                DVec2::new(plane.normal.dot(u), plane.normal.dot(v)),
-            );
-            clip(&mut polygon, height, along);
-            if polygon.is_empty() {
-                return None;
-            }
+            let height = plane.normal.dot(corner) - plane.offset - pad;
+            clip(&mut polygon, height, DVec2::new(plane.normal.dot(u), plane.normal.dot(v)));
         }
-        let place = |at: &DVec2| match self.source {
-            PointSource::Toward(_) => Some(at.y),
-            PointSource::At(_) => {
-                let sum = at.element_sum();
-                (sum > 1e-12).then_some(at.y / sum)
-            }
+        // Distance from the segment, and place along it; none at the lamp.
+        let length = u.length().max(v.length());
+        let off = |at: &DVec2| if sun { at.x * 4.0 * size } else { (1.0 - at.element_sum()) * length };
+        let place = |at: &DVec2| match at.element_sum() {
+            _ if sun => Some(at.y),
+            sum => (sum > 1e-12).then(|| at.y / sum),
         };
-        let mut stretch = (f64::INFINITY, f64::NEG_INFINITY);
-        for corner in &polygon {
-            // The lamp itself is in the polyhedron.
-            let Some(s) = place(corner) else { return Some((0.0, 1.0)) };
-            stretch = (stretch.0.min(s), stretch.1.max(s));
+        if polygon.iter().all(|at| off(at) <= TOUCH * size) {
+            return Shadow::Nothing;
         }
-        let (from, to) = ((stretch.0 - 1e-12).max(0.0), (stretch.1 + 1e-12).min(1.0));
-        (from < to).then_some((from, to))
+        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        for at in &polygon {
+            let Some(s) = place(at) else { return Shadow::Lamp };
+            (from, to) = (from.min(s), to.max(s));
+        }
+        let (from, to) = ((from - margin).max(0.0), (to + margin).min(1.0));
+        if from < to { Shadow::Stretch(from, to) } else { Shadow::Nothing }
     }
+}
+
+/// How much larger what may be in the way is taken, as a share of the coordinates: all here rounds far below.
+pub(crate) const MARGIN: f64 = 1e-12;
+
+/// What reaches no farther than this from the segment, as a share of the coordinates, is the surface that the
+/// segment lies on, seen from its lit side. A place in f32 is 60 times less exact.
+const TOUCH: f64 = 1e-9;
+
+/// What a polyhedron does to a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shadow {
+    /// No point of it is behind the polyhedron.
+    Nothing,
+    /// From here to here, as shares of the way.
+    Stretch(f64, f64),
+    /// The lamp is within the polyhedron.
+    Lamp,
 }
 
 /// Keeps the part of a convex polygon with height + along · x ≤ 0 (Sutherland and Hodgman 1974).

@@ -1,0 +1,144 @@
+//! Shadow intervals of solids against rays, and the two ways of searching against each other.
+
+use glam::{DAffine3, DMat3, DVec3};
+use keikan_raytrace::solid::{Acceleration, Body, Node, Shape, Solids};
+use light::{Bodies, Nearest, Occlude, PointSource, Ray, Stretch};
+
+fn at(shape: Shape, scale: f64, place: DVec3) -> Node {
+    let world_from_solid = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(scale)), place);
+    Node::Solid { shape, world_from_solid, material: 0 }
+}
+
+/// A number in [0, 1) for each index: the fractional parts of multiples of an irrational.
+fn spread(index: u32, by: f64) -> f64 {
+    (f64::from(index) * by + 0.37).fract()
+}
+
+fn place(index: u32) -> DVec3 {
+    DVec3::new(spread(index, 0.819_172_51), spread(index, 0.671_043_61), spread(index, 0.549_700_48)) * 6.0
+        - 3.0
+}
+
+fn garden() -> Vec<Body> {
+    let mut nodes: Vec<Node> = (0..40u32)
+        .map(|i| {
+            let shape = match i % 5 {
+                0 => Shape::Sphere,
+                1 => Shape::Cylinder,
+                2 => Shape::Cone,
+                3 => Shape::Frustum { top: 1.5 },
+                _ => Shape::cube(),
+            };
+            at(shape, 0.1 + 0.3 * spread(i, 0.41), place(i))
+        })
+        .collect();
+    let ring = Node::Difference(
+        Box::new(at(Shape::Sphere, 0.8, DVec3::ZERO)),
+        vec![at(Shape::cube(), 0.5, DVec3::ZERO)],
+    );
+    nodes.push(ring);
+    nodes.into_iter().map(|node| Body { node, medium: None }).collect()
+}
+
+#[test]
+fn boxes_change_no_answer() {
+    let fast = Solids::new(garden(), 3).expect("bodies");
+    let plain = fast.clone().with(Acceleration::None);
+    let mut met = 0;
+    for index in 0..20_000 {
+        let segment = Ray::between(place(index).as_vec3() * 1.5, place(index + 7).as_vec3());
+        let segment = if index % 2 == 0 { segment } else { Ray::new(segment.origin, segment.direction) };
+        let hit = fast.nearest(&segment);
+        assert_eq!(hit, plain.nearest(&segment));
+        assert_eq!(fast.transmittance(&segment), plain.transmittance(&segment));
+        // What is in the way is what is met first.
+        assert_eq!(fast.transmittance(&segment).is_zero(), hit.is_some());
+        met += u32::from(hit.is_some());
+    }
+    assert!(met > 5000, "{met}");
+}
+
+#[test]
+fn shadow_intervals_agree_with_rays() {
+    let fast = Solids::new(garden(), 0).expect("bodies");
+    let plain = fast.clone().with(Acceleration::None);
+    let (mut known, mut dark, mut asked) = (0, 0, 0);
+    for index in 0..3000 {
+        let (a, b) = (place(index), place(index + 1));
+        let source = match index % 3 {
+            0 => PointSource::Toward((place(index + 2) * DVec3::new(1.0, 0.0, 1.0) + DVec3::Y).normalize()),
+            1 => PointSource::Toward([DVec3::X, DVec3::NEG_Z, DVec3::Y][index as usize / 3 % 3]),
+            _ => PointSource::At(place(index + 2)),
+        };
+        let (mut stretches, mut others) = (Vec::new(), Vec::new());
+        assert!(fast.shadows(&source, a, b, &mut stretches) && plain.shadows(&source, a, b, &mut others));
+        for step in 0..20 {
+            let s = (f64::from(step) + 0.5) / 20.0;
+            let p = a + (b - a) * s;
+            let ray = match source {
+                PointSource::At(lamp) => Ray::between(p.as_vec3(), lamp.as_vec3()),
+                PointSource::Toward(way) => Ray::new(p.as_vec3(), way.as_vec3()),
+            };
+            // Positions and directions round to f32: up to 6e-8 of 3 m at either end, and twice that across
+            // the shadow of something half way. Points this near to a stretch's end may be on either side.
+            let near = 1e-6 / (b - a).length();
+            let covers = |stretch: &Stretch, by: f64| stretch.from - by <= s && s <= stretch.to + by;
+            let lit = fast.transmittance(&ray).max() == 1.0;
+            if !stretches.iter().any(|stretch| covers(stretch, near)) {
+                assert!(lit, "{index} {s} {source:?}");
+                known += 1;
+            } else if stretches.iter().any(|stretch| stretch.dark && covers(stretch, -near)) {
+                assert!(!lit, "{index} {s} {source:?}");
+                dark += 1;
+            } else {
+                asked += 1;
+            }
+            let told = |list: &[Stretch]| list.iter().any(|stretch| covers(stretch, 0.0));
+            assert_eq!(told(&stretches), told(&others));
+        }
+    }
+    // In so dense a garden 69 %, 15 % and 16 %; without cores all that is dark would be asked for.
+    assert!(known > 4 * asked && 4 * dark > 3 * asked, "{known} lit, {dark} dark, {asked} asked");
+}
+
+#[test]
+fn the_lit_side_of_a_body_is_known_to_be_lit() {
+    let block = Body { node: at(Shape::cube(), 1.0, DVec3::ZERO), medium: None };
+    let solids = Solids::new(vec![block], 0).expect("a block");
+    let (a, b) = (DVec3::new(-0.9, 1.0, 0.3), DVec3::new(0.9, 1.0, -0.2));
+    let shadows = |source, a, b| {
+        let mut stretches = Vec::new();
+        solids.shadows(&source, a, b, &mut stretches);
+        stretches
+    };
+    let sun = DVec3::new(0.3, 0.8, 0.1).normalize();
+    assert_eq!(shadows(PointSource::Toward(sun), a, b), []);
+    assert_eq!(shadows(PointSource::At(sun * 9.0), a, b), []);
+    for source in [PointSource::Toward(-sun), PointSource::At(sun * -9.0)] {
+        let whole = |stretch: &&Stretch| stretch.dark && stretch.from < 1e-9 && stretch.to > 1.0 - 1e-9;
+        assert_eq!(shadows(source, a, b).iter().filter(whole).count(), 1, "{source:?}");
+    }
+}
+
+#[test]
+fn hulls_waste_what_they_are_said_to() {
+    // Mean outline over all directions: a quarter of the surface (Cauchy); that of the solid beside it.
+    let outline = |shape: Shape| {
+        let solids =
+            Solids::new(vec![Body { node: at(shape, 1.0, DVec3::ZERO), medium: None }], 0).expect("one");
+        let hull = &solids.hulls()[0];
+        let area = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|i| hull.corners[i as usize]);
+            (b - a).cross(c - a).length() / 2.0
+        };
+        hull.faces.iter().map(area).sum::<f64>() / 4.0
+    };
+    let pi = std::f64::consts::PI;
+    // Icosahedron of inradius 1: edge 12/(√3 (3 + √5)), surface 5 √3 edge². Hulls are 1e-9 larger than that.
+    let edge = 12.0 / (3f64.sqrt() * (3.0 + 5f64.sqrt()));
+    assert!((outline(Shape::Sphere) - 5.0 * 3f64.sqrt() * edge * edge / 4.0).abs() < 1e-7);
+    assert!((outline(Shape::Sphere) / pi - 1.207).abs() < 5e-4);
+    // Squares about circles: 4/π = 1.273 for caps and sides alike.
+    assert!((outline(Shape::Cylinder) / pi - 4.0 / pi).abs() < 1e-7);
+    assert!((outline(Shape::Cone) / (pi * (1.0 + 2f64.sqrt()) / 4.0) - 4.0 / pi).abs() < 1e-7);
+}
