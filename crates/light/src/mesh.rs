@@ -129,10 +129,21 @@ impl Geometry {
     /// `ray` is the viewing ray, `pixel_width` the width of its footprint across the ray at the hit \[m\]
     /// (0 = sample textures without filtering). Weights a little outside the triangle are brought inside.
     pub fn hit(&self, instance: u32, triangle: u32, at: DVec2, ray: &Ray, pixel_width: f32) -> Hit {
+        self.hit_on(&self.triangle(instance, triangle), [instance, triangle], at, ray, pixel_width)
+    }
+
+    /// The same for one who has the corners `world` of triangle \[instance, triangle\] already.
+    pub fn hit_on(
+        &self,
+        world: &Triangle,
+        [instance, triangle]: [u32; 2],
+        at: DVec2,
+        ray: &Ray,
+        pixel_width: f32,
+    ) -> Hit {
         let placed = &self.instances[instance as usize];
         let mesh = &self.meshes[placed.mesh as usize];
         let corners = mesh.triangles[triangle as usize].map(|i| i as usize);
-        let world = self.triangle(instance, triangle);
         let v = at.x.clamp(0.0, 1.0);
         let w = at.y.clamp(0.0, 1.0 - v);
         let weights = [1.0 - v - w, v, w];
@@ -150,7 +161,7 @@ impl Geometry {
         // look at them: another ½ ulp of the largest coordinate of the triangle.
         let reach = world.0.iter().fold(0.0f64, |reach, c| reach.max(c.abs().max_element())) as f32;
         let place = Place { position: position_f32, error: 4.0 * rounding::UNIT * reach, normal, seed: 0 };
-        let (tangent, uv_density) = uv_frame(mesh, corners, &world);
+        let (tangent, uv_density) = uv_frame(mesh, corners, world);
         Hit {
             place,
             shading_normal: shading_normal(mesh, placed, corners, weights, normal, front),

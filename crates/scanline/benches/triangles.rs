@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion};
 use glam::{DAffine3, DVec3, Vec3};
-use keikan_scanline::{Knobs, Scanline};
+use keikan_scanline::{Knobs, Rule, Scanline};
 use light::{Geometry, Instance, Mesh, Opacity, See, Texture, View, Wrap};
 use rayon::prelude::*;
 
@@ -70,6 +70,39 @@ fn leaves(count: u32) -> Geometry {
     placed(Mesh { opacity: Some(Arc::new(opacity)), ..scattered(count, 0.3) })
 }
 
+/// A town of `count` houses (boxes) on a ground, 12 triangles each.
+fn town(count: u32) -> Geometry {
+    let mut state = 7u64;
+    let mut random = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1u64 << 24) as f32
+    };
+    let mut mesh = Mesh::default();
+    let mut quad = |corners: [Vec3; 4]| {
+        let base = mesh.positions.len() as u32;
+        mesh.positions.extend(corners);
+        mesh.triangles.extend([[base, base + 1, base + 2], [base, base + 2, base + 3]]);
+    };
+    let ground = |x: f32, z: f32| Vec3::new(2000.0 * x, 0.0, 2000.0 * z);
+    quad([ground(-1.0, -1.0), ground(1.0, -1.0), ground(1.0, 1.0), ground(-1.0, 1.0)]);
+    for _ in 0..count {
+        let middle = Vec3::new(1500.0 * (random() - 0.5), 0.0, 1600.0 * random());
+        let (width, depth, height) = (20.0 + 40.0 * random(), 20.0 + 40.0 * random(), 10.0 + 50.0 * random());
+        let turn = 3.0 * random();
+        let at = |i: usize, y: f32| {
+            let (x, z) = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)][i % 4];
+            let (x, z) = (x * width, z * depth);
+            middle + Vec3::new(x * turn.cos() - z * turn.sin(), y, x * turn.sin() + z * turn.cos())
+        };
+        for i in 0..4 {
+            quad([at(i, 0.0), at(i + 1, 0.0), at(i + 1, height), at(i, height)]);
+        }
+        quad([0, 1, 2, 3].map(|i| at(i, height)));
+        quad([0, 1, 2, 3].map(|i| at(i, 0.0)));
+    }
+    placed(mesh)
+}
+
 fn placed(mesh: Mesh) -> Geometry {
     let instances = vec![Instance { mesh: 0, world_from_mesh: DAffine3::IDENTITY }];
     Geometry { meshes: vec![mesh], instances }
@@ -106,26 +139,33 @@ fn processor_seconds() -> f64 {
     fields.take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
-/// One run, with its parts; returns the geometry.
+/// One run by each of two rules, with its parts; returns the geometry.
 fn once(name: &str, geometry: Geometry, size: [u32; 2]) -> Arc<Geometry> {
     let geometry = Arc::new(geometry);
+    for rule in [Rule::Midpoint, Rule::Exact] {
+        by(rule, name, &geometry, size);
+    }
+    geometry
+}
+
+fn by(rule: Rule, name: &str, geometry: &Arc<Geometry>, size: [u32; 2]) {
     let before = peak_mebibytes();
     let (start, begun) = (Instant::now(), processor_seconds());
-    let stage = Scanline::new(geometry.clone(), view(size), Knobs::default());
+    let stage = Scanline::new(geometry.clone(), view(size), Knobs { rule, ..Knobs::default() });
     let (ready, set_up) = (start.elapsed(), processor_seconds());
     let pieces = look(&stage, size);
     let (all, done) = (start.elapsed(), processor_seconds());
     println!(
-        "once {name} {:>9} triangles: set-up {:.3} s ({:.2} processor), picture {:.3} s ({:.2} processor), {pieces} pieces, \
+        "once {name} {:>9} triangles, {rule:?}, {} lines: set-up {:.3} s ({:.2} processor), picture {:.3} s ({:.2} processor), {pieces} pieces, \
          peak {} MiB (scene alone {before})",
         geometry.triangle_count(),
+        stage.line_count(),
         ready.as_secs_f64(),
         set_up - begun,
         (all - ready).as_secs_f64(),
         done - set_up,
         peak_mebibytes(),
     );
-    geometry
 }
 
 fn main() {
@@ -145,6 +185,9 @@ fn main() {
     }
     group.finish();
     // Deep: large faces that pass through one another, and leaves that let others through.
+    once("town", town(100), SIZE);
+    once("town", town(1000), SIZE);
+    once("soup", placed(scattered(300, 60.0)), SIZE);
     once("soup", placed(scattered(3_000, 60.0)), SIZE);
     once("soup", placed(scattered(30_000, 60.0)), SIZE);
     once("leaves", leaves(100_000), SIZE);

@@ -23,7 +23,7 @@ pub struct Knobs {
 
 impl Default for Knobs {
     fn default() -> Self {
-        Self { sub_scanlines: 4, rule: Rule::Midpoint, shading: Shading::PerPixel }
+        Self { sub_scanlines: 4, rule: Rule::Exact, shading: Shading::PerPixel }
     }
 }
 
@@ -35,6 +35,9 @@ pub enum Rule {
     Trapezoid,
     /// In the middle of each strip, weights h.
     Midpoint,
+    /// As the midpoint rule, but every border leans as its edge does, and areas are those between leaning
+    /// borders. Strips end where corners are, as far as that takes at most a quarter more lines.
+    Exact,
 }
 
 /// How often a face is shaded.

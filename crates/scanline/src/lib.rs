@@ -54,6 +54,8 @@
 //! });
 //! ```
 
+mod area;
+mod borders;
 mod buckets;
 mod cull;
 mod envelope;
@@ -66,6 +68,7 @@ mod resolve;
 mod scanline;
 mod see;
 mod segment;
+mod slabs;
 mod spans;
 mod veil;
 

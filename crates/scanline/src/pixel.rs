@@ -1,5 +1,6 @@
 //! One pixel: which faces show in it, how much of each, and where.
 
+use crate::area::Area;
 use crate::segment::Segment;
 
 /// A face's visible part of a pixel, or of one span in it.
@@ -34,6 +35,9 @@ struct Stack {
 /// may be a far brighter sky) is not let in, and no share is lost. An eighth of a step of an 8-bit display.
 pub(crate) const NEGLIGIBLE: f64 = 1.0 / 2048.0;
 
+/// Areas below this are rounding errors of differences of areas up to 1, or show nothing: 2⁻⁴⁰ of a pixel.
+const TINY: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// What is known of the pixel so far. Emptied by [`Pixel::clear`], memory kept.
 #[derive(Default)]
 pub(crate) struct Pixel {
@@ -56,6 +60,18 @@ impl Pixel {
         let area = (r - l) * weight;
         let index = self.cover(face, 0.5 * (l + r), y, area, merge);
         self.covers[index].share += area;
+    }
+
+    /// Adds an area of an opaque span with its moments about (`x`, `y`).
+    pub(crate) fn leaning(&mut self, face: u32, part: Area, (x, y): (f64, f64), merge: bool) {
+        // What rounding left of nothing is nothing.
+        if part.area > TINY {
+            let index = self.cover(face, x, y, part.area, merge);
+            let cover = &mut self.covers[index];
+            cover.moment[0] += part.x;
+            cover.moment[1] += part.y;
+            cover.share += part.area;
+        }
     }
 
     fn cover(&mut self, face: u32, x: f64, y: f64, area: f64, merge: bool) -> usize {

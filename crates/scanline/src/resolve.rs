@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use glam::DVec2;
-use light::{Hit, Piece, Ray};
+use light::{Hit, Known, Piece, Ray};
 
+use crate::area::{self, Area};
+use crate::borders::Border;
 use crate::pixel::{Cover, Pixel};
 use crate::scanline::Line;
 use crate::segment::Segment;
@@ -28,7 +30,7 @@ impl Walk<'_> {
     fn add(&mut self, column: u32, pixel: &mut Pixel, merge: bool) {
         let (left, right) = (f64::from(column), f64::from(column + 1));
         let spans = &self.line.opaque;
-        while self.opaque < spans.len() && spans[self.opaque].x1 <= left {
+        while self.opaque < spans.len() && self.line.right(self.opaque) <= left {
             self.opaque += 1;
         }
         let veils = &self.line.veils;
@@ -41,6 +43,9 @@ impl Walk<'_> {
                 self.veil += 1;
             }
         }
+        if self.begun.is_empty() && !self.line.sides.is_empty() {
+            return self.add_leaning(left, pixel, merge);
+        }
         let here = &spans[self.opaque..];
         let here = &here[..here.iter().position(|span| span.x0 >= right).unwrap_or(here.len())];
         if self.begun.is_empty() {
@@ -50,6 +55,24 @@ impl Walk<'_> {
             }
         } else {
             pixel.layered(here, &self.begun, (left, right), (self.y, self.weight), merge);
+        }
+    }
+
+    /// The same where the borders lean and no veil is.
+    fn add_leaning(&self, left: f64, pixel: &mut Pixel, merge: bool) {
+        let spans = self.line.opaque[self.opaque..].iter().zip(&self.line.sides[self.opaque..]);
+        // What lies left of the border that was met last: most spans begin where another ends.
+        let mut last = (Border::default(), Area::default());
+        for (span, sides) in spans {
+            if sides.left[0].min(sides.left[1]) >= left + 1.0 {
+                break;
+            }
+            if last.0 != sides.left {
+                last = (sides.left, area::left_of(sides.left, left, self.weight));
+            }
+            let before = last.1;
+            last = (sides.right, area::left_of(sides.right, left, self.weight));
+            pixel.leaning(span.face, last.1 - before, (left, self.y), merge);
         }
     }
 }
@@ -64,7 +87,7 @@ impl Scanline {
         pixel: &mut Pixel,
         pieces: &mut Vec<Piece>,
     ) {
-        let left = f64::from(columns.start);
+        let left = f64::from(columns.start + self.margin);
         let mut walks: Vec<_> = self
             .grid
             .of_row(row)
@@ -73,7 +96,7 @@ impl Scanline {
                 line,
                 y: self.grid.y(number),
                 weight: self.grid.weight(row, number),
-                opaque: line.opaque.partition_point(|span| span.x1 <= left),
+                opaque: line.first_right_of(left),
                 veil: 0,
                 begun: Vec::new(),
             })
@@ -82,7 +105,7 @@ impl Scanline {
         let mut made = Vec::new();
         for column in columns {
             pixel.clear();
-            walks.iter_mut().for_each(|walk| walk.add(column, pixel, merge));
+            walks.iter_mut().for_each(|walk| walk.add(column + self.margin, pixel, merge));
             made.clear();
             pixel.share_out(|cover| {
                 let hit = self.hit(row, column, cover);
@@ -94,7 +117,7 @@ impl Scanline {
             for cover in pixel.covers.iter().filter(|cover| cover.share > 0.0) {
                 let hit = made.get(cover.hit as usize).copied();
                 let hit = hit.unwrap_or_else(|| self.hit(row, column, cover));
-                pieces.push(Piece { column, share: cover.share as f32, hit });
+                pieces.push(Piece { column, share: cover.share as f32, hit, known: Known::default() });
             }
             at_most_one(&mut pieces[first..]);
         }
@@ -121,7 +144,7 @@ impl Scanline {
         let depth = -self.view.world_from_view.z_axis.dot(point - self.view.eye);
         let pixel_width = self.view.pixel_width(depth.max(self.view.near)) as f32;
         let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
-        let mut hit = self.geometry.hit(instance, triangle, weights, &ray, pixel_width);
+        let mut hit = self.geometry.hit_on(&corners, [instance, triangle], weights, &ray, pixel_width);
         hit.place.seed = seed(column, row, cover.face);
         hit
     }

@@ -6,17 +6,25 @@ use glam::DVec3;
 use light::{Geometry, View};
 use rayon::prelude::*;
 
+use crate::borders::{Borders, Sides};
 use crate::buckets::{self, Buckets, NOWHERE};
 use crate::envelope::Envelope;
 use crate::grid::Grid;
 use crate::project::{self, Corners};
-use crate::segment::{self, Rounding, Segment};
-use crate::{Knobs, veil};
+use crate::segment::{self, Lean, Rounding, Segment};
+use crate::slabs::{Event, Gather};
+use crate::{Knobs, Rule, veil};
+
+/// Columns beside the picture that the exact rule looks at. Outlines so level that they come farther into the
+/// picture within half a strip are cut off upright at its sides.
+const MARGIN: u32 = 8;
 
 /// Faces of a geometry, projected, clipped and sorted for one view.
 pub struct Scanline {
     pub(crate) geometry: Arc<Geometry>,
+    /// With `margin` more columns on either side: what lies there may lean into the picture.
     pub(crate) view: View,
+    pub(crate) margin: u32,
     pub(crate) knobs: Knobs,
     pub(crate) grid: Grid,
     rounding: Rounding,
@@ -43,15 +51,38 @@ struct Clipped {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Line {
     pub(crate) opaque: Vec<Segment>,
+    /// How the borders of `opaque` lean, by the exact rule.
+    pub(crate) sides: Vec<Sides>,
     pub(crate) veils: Vec<Segment>,
+}
+
+impl Line {
+    /// The rightmost x of an opaque span.
+    pub(crate) fn right(&self, span: usize) -> f64 {
+        let x1 = self.opaque[span].x1;
+        self.sides.get(span).map_or(x1, |sides| sides.right[0].max(sides.right[1]).max(x1))
+    }
+
+    /// The first opaque span that reaches beyond x.
+    pub(crate) fn first_right_of(&self, x: f64) -> usize {
+        let in_the_middle = self.opaque.partition_point(|span| span.x1 <= x);
+        let leaning = |sides: &Sides| sides.right[0].max(sides.right[1]) <= x;
+        if self.sides.is_empty() {
+            in_the_middle
+        } else {
+            in_the_middle.min(self.sides.partition_point(leaning))
+        }
+    }
 }
 
 /// Working memory of one call.
 #[derive(Default)]
 pub(crate) struct Scratch {
     envelope: Envelope,
+    borders: Borders,
     ys: Vec<f64>,
     opaque: Vec<Vec<Segment>>,
+    leans: Vec<Vec<Lean>>,
     veils: Vec<Vec<Segment>>,
 }
 
@@ -60,9 +91,11 @@ impl Scanline {
     ///
     /// Faces beyond number 2³² − 2 are not seen.
     pub fn new(geometry: Arc<Geometry>, view: View, knobs: Knobs) -> Self {
-        let grid = Grid::new(&knobs, view.height);
+        let margin = if knobs.rule == Rule::Exact { MARGIN } else { 0 };
+        let view = View { width: view.width + 2 * margin, ..view };
         let first_faces = first_faces(&geometry);
         let corners = Corners::project(&geometry, &view);
+        let grid = Grid::new(&knobs, view.height, |h| find_events(&geometry, &corners, &view, h));
         let (faces, cut) = sort_faces(&geometry, &corners, &grid, &view, &first_faces);
         let (clipped, keys) = clip_faces(&geometry, &grid, &view, &cut);
         let clipped_at = Buckets::sort(grid.groups(), &keys, |i| i as u32);
@@ -72,6 +105,7 @@ impl Scanline {
         Self {
             geometry,
             view,
+            margin,
             knobs,
             grid,
             rounding,
@@ -93,7 +127,8 @@ impl Scanline {
     /// What shows on the lines of a group, of which only the first `count` are looked at.
     pub(crate) fn group(&self, group: u32, count: u32, scratch: &mut Scratch, out: &mut Vec<Line>) {
         let lines = self.grid.group(group);
-        let lines = lines.start..lines.end.min(lines.start + count);
+        let lines = lines.start..lines.end.min(lines.start.saturating_add(count));
+        let first = lines.start;
         let len = lines.len();
         scratch.ys.clear();
         scratch.ys.extend(lines.map(|line| self.grid.y(line)));
@@ -101,10 +136,19 @@ impl Scanline {
             lists.iter_mut().for_each(Vec::clear);
             lists.resize_with(len.max(lists.len()), Vec::new);
         }
+        scratch.leans.iter_mut().for_each(Vec::clear);
+        scratch.leans.resize_with(len.max(scratch.leans.len()), Vec::new);
+        let leaning = self.grid.rule == Rule::Exact;
         let mut add = |instance: u32, triangle: u32, corners: [DVec3; 3]| {
             let face = self.first_faces[instance as usize] + triangle;
-            let lists = if self.veiled[instance as usize] { &mut scratch.veils } else { &mut scratch.opaque };
-            segment::cut(&scratch.ys, &self.rounding, corners, face, |line, segment| {
+            let veiled = self.veiled[instance as usize];
+            let lists = if veiled { &mut scratch.veils } else { &mut scratch.opaque };
+            let leaning = leaning && !veiled;
+            segment::cut(&scratch.ys, &self.rounding, corners, face, |line, mut segment, lean| {
+                if leaning {
+                    segment.lean = lists[line].len() as u32;
+                    scratch.leans[line].push(lean);
+                }
                 lists[line].push(segment);
             });
         };
@@ -122,7 +166,12 @@ impl Scanline {
         }
         out.resize_with(len, Line::default);
         for (i, line) in out.iter_mut().enumerate() {
-            scratch.envelope.find(&mut scratch.opaque[i], f64::from(self.view.width), &mut line.opaque);
+            let width = f64::from(self.view.width);
+            scratch.envelope.find(&mut scratch.opaque[i], width, &mut line.opaque);
+            if leaning {
+                let height = self.grid.weight(group, first + i as u32);
+                scratch.borders.find(&line.opaque, &scratch.leans[i], height, width, &mut line.sides);
+            }
             veil::in_front(&scratch.veils[i], &line.opaque, &mut line.veils);
         }
     }
@@ -161,6 +210,29 @@ fn reach(geometry: &Geometry, view: &View) -> f64 {
         }
     }
     reach
+}
+
+/// Corners where strips of height `strip` had better end.
+fn find_events(geometry: &Geometry, corners: &Corners, view: &View, strip: f64) -> Vec<Event> {
+    let mut all = Vec::new();
+    for (instance, placed) in (0..).zip(&geometry.instances) {
+        let mesh = &geometry.meshes[placed.mesh as usize];
+        if mesh.opacity.is_some() {
+            continue;
+        }
+        let tasks = mesh.triangles.par_chunks(CHUNK).map(|triangles| {
+            let mut gather = Gather::new(strip, view.height);
+            for face in triangles.iter().filter_map(|&triangle| corners.face(instance, triangle)) {
+                let [a, b, c] = face.map(|corner| corner.x);
+                if a.max(b).max(c) > 0.0 && a.min(b).min(c) < f64::from(view.width) {
+                    gather.add(&face);
+                }
+            }
+            gather.events
+        });
+        all.par_extend(tasks.flatten_iter());
+    }
+    all
 }
 
 /// Triangles that a task of the set-up looks at.
@@ -218,7 +290,7 @@ fn key_of(grid: &Grid, view: &View, corners: &[DVec3; 3]) -> u32 {
     if lines.is_empty() || a.max(b).max(c) <= 0.0 || a.min(b).min(c) >= f64::from(view.width) {
         return NOWHERE;
     }
-    buckets::key(grid.groups(), lines.start / grid.strips, (lines.end - 1) / grid.strips)
+    buckets::key(grid.groups(), grid.group_of(lines.start), grid.group_of(lines.end - 1))
 }
 
 /// Clips the faces that pass through the near plane and says where to sort what is left.

@@ -11,23 +11,22 @@ use crate::{Rule, Scanline};
 impl See for Scanline {
     fn see(&self, rows: Range<u32>, columns: Range<u32>, receive: &mut dyn FnMut(u32, &mut Vec<Piece>)) {
         let rows = rows.start..rows.end.min(self.view.height);
-        let columns = columns.start..columns.end.min(self.view.width);
+        let columns = columns.start..columns.end.min(self.view.width - 2 * self.margin);
         let (mut scratch, mut pixel) = (Scratch::default(), Pixel::default());
         let (mut lines, mut below): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
         let mut pieces = Vec::new();
-        let strips = self.grid.strips;
         // The trapezoid rule ends a row on the first line of the next: groups are found one row ahead.
         let ahead = self.grid.rule == Rule::Trapezoid;
         if ahead && !rows.is_empty() {
-            self.group(rows.start, strips, &mut scratch, &mut below);
+            self.group(rows.start, u32::MAX, &mut scratch, &mut below);
         }
         for row in rows.clone() {
             if ahead {
                 std::mem::swap(&mut lines, &mut below);
-                let count = if row + 1 < rows.end { strips } else { 1 };
+                let count = if row + 1 < rows.end { u32::MAX } else { 1 };
                 self.group(row + 1, count, &mut scratch, &mut below);
             } else {
-                self.group(row, strips, &mut scratch, &mut lines);
+                self.group(row, u32::MAX, &mut scratch, &mut lines);
             }
             let last = below.iter().take(usize::from(ahead));
             pieces.clear();

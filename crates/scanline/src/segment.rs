@@ -23,11 +23,36 @@ pub(crate) struct Segment {
     pub(crate) error: f32,
     /// Number of the face, in the order of (instance, triangle).
     pub(crate) face: u32,
+    /// Index of its [`Lean`] among those of the line.
+    pub(crate) lean: u32,
+}
+
+/// How a segment changes from line to line.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lean {
+    /// Left and right end, which may lie beyond the picture.
+    pub(crate) x: [f64; 2],
+    /// dx/dy of the edges at both ends. An f32 errs along the edge by 2⁻²⁴ of the strip's height.
+    pub(crate) edges: [f32; 2],
+    /// ∂nearness/∂y of the face.
+    pub(crate) fall: f64,
+    /// How far the face goes on up and down along these edges, each; no end at its middle corner.
+    pub(crate) reach: [[f32; 2]; 2],
+    /// Heights of these edges.
+    pub(crate) heights: [f32; 2],
 }
 
 impl Segment {
     pub(crate) fn nearness(&self, x: f64) -> f64 {
         self.w + (x - self.x0) * self.slope
+    }
+}
+
+impl Lean {
+    /// Left and right exchanged.
+    fn turned(self) -> Self {
+        let Self { x: [a, b], edges: [c, d], fall, reach: [e, f], heights: [g, h] } = self;
+        Self { x: [b, a], edges: [d, c], fall, reach: [f, e], heights: [h, g] }
     }
 }
 
@@ -76,6 +101,7 @@ impl Rounding {
 /// Both faces at an edge see the same two corners in the same order, so that they get the same bits.
 struct Edge {
     from: DVec3,
+    height: f64,
     dx: f64,
     dw: f64,
 }
@@ -83,13 +109,19 @@ struct Edge {
 impl Edge {
     fn new(from: DVec3, to: DVec3) -> Self {
         let height = to.y - from.y;
-        Self { from, dx: (to.x - from.x) / height, dw: (to.z - from.z) / height }
+        Self { from, height, dx: (to.x - from.x) / height, dw: (to.z - from.z) / height }
     }
 
     /// (x, nearness) at a line.
     fn at(&self, y: f64) -> (f64, f64) {
         let down = y - self.from.y;
         (self.from.x + down * self.dx, self.from.z + down * self.dw)
+    }
+
+    /// How far it goes up and down from a line that it crosses.
+    fn reach(&self, y: f64) -> [f32; 2] {
+        let up = y - self.from.y;
+        [up as f32, (self.height - up) as f32]
     }
 }
 
@@ -106,7 +138,7 @@ pub(crate) fn cut(
     rounding: &Rounding,
     corners: [DVec3; 3],
     face: u32,
-    mut receive: impl FnMut(usize, Segment),
+    mut receive: impl FnMut(usize, Segment, Lean),
 ) {
     let [mut a, mut b, mut c] = corners;
     if b.y < a.y {
@@ -130,15 +162,26 @@ pub(crate) fn cut(
     };
     let long = Edge::new(a, c);
     // An edge that no line crosses may have no height; its slope is not asked for.
-    for (short, lines) in [((a, b), start..middle), ((b, c), middle..end)] {
+    for (short, lines, inner) in [((a, b), start..middle, 1), ((b, c), middle..end, 0)] {
         if lines.is_empty() {
             continue;
         }
         let short = Edge::new(short.0, short.1);
         for line in lines {
-            let ends = (long.at(ys[line]), short.at(ys[line]));
-            if let Some(segment) = between(rounding, ends, largest, face) {
-                receive(line, segment);
+            let (p, q) = (long.at(ys[line]), short.at(ys[line]));
+            if let Some(segment) = between(rounding, (p, q), largest, face) {
+                let fall = long.dw - long.dx * segment.slope;
+                let mut reach = short.reach(ys[line]);
+                reach[inner] = f32::INFINITY;
+                let lean = Lean {
+                    x: [p.0, q.0],
+                    edges: [long.dx as f32, short.dx as f32],
+                    fall,
+                    reach: [long.reach(ys[line]), reach],
+                    heights: [long.height as f32, short.height as f32],
+                };
+                let lean = if q.0 < p.0 { lean.turned() } else { lean };
+                receive(line, segment, lean);
             }
         }
     }
@@ -157,7 +200,7 @@ fn between(
         return None;
     }
     let slope = (w1 - w0) / (x1 - x0);
-    let mut segment = Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face };
+    let mut segment = Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face, lean: 0 };
     if x0 < 0.0 {
         segment.w = w0 - x0 * slope;
         segment.x0 = 0.0;

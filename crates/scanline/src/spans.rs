@@ -40,7 +40,7 @@ impl Scanline {
     /// Screen y of a sub-scanline \[pixel\], and the area of the picture it speaks for, as the
     /// rule weighs it, in rows.
     pub fn line(&self, line: u32) -> (f64, f64) {
-        let row = line / self.grid.strips;
+        let row = self.grid.group_of(line);
         let mut weight = 0.0;
         for row in row.saturating_sub(1)..(row + 1).min(self.grid.rows) {
             if self.grid.of_row(row).contains(&line) {
@@ -55,25 +55,30 @@ impl Scanline {
         if line >= self.grid.lines() {
             return Spans::default();
         }
-        let (group, place) = (line / self.grid.strips, line % self.grid.strips);
+        let group = self.grid.group_of(line);
+        let place = line - self.grid.group(group).start;
         let mut lines = Vec::new();
         self.group(group, place + 1, &mut Scratch::default(), &mut lines);
-        let Line { opaque, veils } = std::mem::take(&mut lines[place as usize]);
-        let name = |segments: Vec<Segment>| segments.iter().map(|segment| self.name(segment)).collect();
+        let Line { opaque, veils, .. } = std::mem::take(&mut lines[place as usize]);
+        let name =
+            |segments: Vec<Segment>| segments.iter().filter_map(|segment| self.name(segment)).collect();
         Spans { opaque: name(opaque), veils: name(veils) }
     }
 
-    fn name(&self, segment: &Segment) -> Span {
+    /// None for what lies in the margin.
+    fn name(&self, segment: &Segment) -> Option<Span> {
+        let margin = f64::from(self.margin);
+        let x = [segment.x0.max(margin), segment.x1.min(f64::from(self.view.width) - margin)];
         let (instance, triangle) = self.face(segment.face);
-        let nearness = [segment.w, segment.nearness(segment.x1)];
-        Span { x: [segment.x0, segment.x1], nearness, instance, triangle }
+        let nearness = x.map(|x| segment.nearness(x));
+        (x[0] < x[1]).then(|| Span { x: x.map(|x| x - margin), nearness, instance, triangle })
     }
 
     /// The point of a span at screen x `x` on a line, in the world \[m\].
     pub fn point(&self, line: u32, span: &Span, x: f64) -> glam::DVec3 {
         let share = (x - span.x[0]) / (span.x[1] - span.x[0]);
         let nearness = span.nearness[0] + (span.nearness[1] - span.nearness[0]) * share;
-        let (origin, direction) = self.view.line(DVec2::new(x, self.grid.y(line)));
+        let (origin, direction) = self.view.line(DVec2::new(x + f64::from(self.margin), self.grid.y(line)));
         let forward = -self.view.world_from_view.z_axis;
         let depth = self.depth(nearness);
         origin + direction * (depth / direction.dot(forward))

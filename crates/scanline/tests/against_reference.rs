@@ -62,7 +62,7 @@ proptest! {
     #[test]
     fn soup_of_crossing_faces(triangles in triangles(10.0, 40)) {
         let geometry = placed(soup(&triangles));
-        for rule in [Rule::Trapezoid, Rule::Midpoint] {
+        for rule in [Rule::Trapezoid, Rule::Midpoint, Rule::Exact] {
             check(&geometry, ahead(24), Knobs { rule, ..Knobs::default() }, (0..96).step_by(5));
         }
     }
