@@ -115,27 +115,20 @@ impl Fan {
             false => corners[other].toward(corners[lone]),
         };
         let (from, to) = within(cut((lone + 1) % 3), cut((lone + 2) % 3))?;
-        let apart = from < to && !self.on(face, from, to) && !self.source_on(face);
-        apart.then_some((from, to))
+        (from < to && !self.touches(face, from, to)).then_some((from, to))
     }
 
-    /// Whether the segment from share `from` to share `to` lies in the plane of `face`, as far as positions are
-    /// known.
-    fn on(&self, face: &Triangle, from: f64, to: f64) -> bool {
-        near(face, self.a + self.d * from) && near(face, self.a + self.d * to)
+    /// Whether the segment from share `from` to share `to` lies in the plane of `face`, or the source does, as
+    /// far as positions are known: within 4 u of the largest coordinate, per coordinate. That is what
+    /// [`light::Place::error`] is for hits, and how far [`light::Place::leave`] moves them.
+    fn touches(&self, face: &Triangle, from: f64, to: f64) -> bool {
+        let normal = face.cross();
+        let reach = face.0.iter().fold(0.0f64, |reach, corner| reach.max(corner.abs().max_element()));
+        let unit = 4.0 * f64::from(UNIT) * normal.abs().element_sum();
+        let near =
+            |point: DVec3| normal.dot(point - face.0[0]).abs() <= unit * reach.max(point.abs().max_element());
+        (near(self.a + self.d * from) && near(self.a + self.d * to)) || self.lamp.is_some_and(near)
     }
-
-    fn source_on(&self, face: &Triangle) -> bool {
-        self.lamp.is_some_and(|lamp| near(face, lamp))
-    }
-}
-
-/// Whether `point` is within 4 u of the largest coordinate, per coordinate, of the plane of `face`: what
-/// [`light::Place::error`] is for its hits, moved as [`light::Place::leave`] moves.
-fn near(face: &Triangle, point: DVec3) -> bool {
-    let normal = face.cross();
-    let reach = face.0.iter().fold(point.abs().max_element(), |reach, c| reach.max(c.abs().max_element()));
-    normal.dot(point - face.0[0]).abs() <= 4.0 * f64::from(UNIT) * reach * normal.abs().element_sum()
 }
 
 /// The shares that the part of `p`–`q` within the fan hides, the lesser first; none when nothing of it is within.

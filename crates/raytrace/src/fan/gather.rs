@@ -11,7 +11,6 @@ use super::{
 };
 use crate::{
     collapse::WIDTH,
-    lanes::Plain,
     tree::{DEEPEST, Faces, LEAF, Tree},
     world::World,
 };
@@ -80,7 +79,7 @@ impl<'a> Gather<'a> {
     /// Looks at the faces of one hierarchy.
     fn faces(&mut self, faces: &Faces, instance: Option<u32>, sieve: &Sieve) -> Told {
         descend(&faces.tree, sieve, |leaf| {
-            let mut mask = sieve.triangles::<Plain>(&faces.packets[leaf as usize]);
+            let mut mask = sieve.triangles(&faces.packets[leaf as usize]);
             self.seen += mask.count_ones() as usize;
             if self.seen > MOST {
                 return Told::TooMany;
@@ -128,7 +127,7 @@ fn descend(tree: &Tree, sieve: &Sieve, mut leaf: impl FnMut(u32) -> Told) -> Tol
             continue;
         }
         let node = &tree.nodes[current as usize];
-        let mut mask = sieve.boxes::<Plain>(node);
+        let mut mask = sieve.boxes(node);
         while mask != 0 {
             stack[height] = node.children[mask.trailing_zeros() as usize & (WIDTH - 1)];
             height += 1;

@@ -17,6 +17,10 @@
 //! that distance of the true one, and a–b may have been rounded to f32; a face that merely touches a–b is not
 //! touched by this rule, its shadow starts where it stands. A face whose plane passes the source as closely does not hide it.
 //!
+//! *Cost* (`benches/shadows.rs`, one thread; AVX2): a segment of a pixel's size costs 0.4 to 0.8 µs in scenes of 500 to
+//! 20 000 triangles and 2.5 µs on a terrain of a million, which is what 3 to 4 shadow rays cost there. One across a
+//! quarter of the scene costs 10 to 20, 50 to 90 and 70 to 120 rays, and there are hundreds of pixels on it.
+//!
 //! *Ends of stretches* are computed in f64 from corners in f64. Where two faces share an edge, both compute the same bits
 //! from it: no gap opens between them and none has to be closed by a tolerance. Corners exactly in the fan's plane count as
 //! above it, for all faces that share them.
@@ -24,6 +28,8 @@
 mod frame;
 mod gather;
 mod sieve;
+#[cfg(test)]
+mod tests;
 mod union;
 
 use glam::DVec3;
@@ -38,7 +44,7 @@ const FARTHEST: f64 = 1e9;
 
 /// Faces in the fan \[1\] beyond which intervals are not worth their while: the whole segment is then reported
 /// as one that rays have to look at. A face costs some 50 ns here, a shadow ray 0.2 to 0.5 µs: a
-/// segment is a few pixels wide and would need some dozens of rays.
+/// segment that sees so many costs as much as a few hundred rays.
 const MOST: usize = 4096;
 
 /// The whole segment.
