@@ -23,7 +23,7 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Lamps.
     pub lights: Vec<Light>,
-    /// The sun, if it shines.
+    /// The sun, also while it is below the horizon; none = switched off, or neither placed nor timed.
     pub sun: Option<Sun>,
     /// What lights the scene from all around, if anything.
     pub sky: Option<Sky>,
@@ -80,16 +80,16 @@ pub enum LightSpectrum {
     Table(Vec<(f64, f64)>),
 }
 
-/// The sun.
+/// The sun. It shines only while some of its disc is above the horizon: altitude > −diameter / 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sun {
     /// Unit vector towards it.
     pub toward: DVec3,
-    /// Degrees above the horizon, refraction included where it was computed from a date.
+    /// Degrees above the horizon, refraction included where it was computed from a date; negative at night.
     pub altitude: f64,
     /// Degrees clockwise from true north.
     pub azimuth: f64,
-    /// Illuminance facing it \[lx\]; none = what the atmosphere lets through.
+    /// Illuminance facing it while it is up \[lx\]; none = what the atmosphere lets through.
     pub illuminance: Option<f64>,
     /// Colour; none = what the atmosphere lets through.
     pub spectrum: Option<LightSpectrum>,

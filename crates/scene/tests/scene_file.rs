@@ -44,7 +44,12 @@ fn a_site_with_a_time_has_sun_and_sky() {
         assert_eq!(scene.sky.as_ref().map(|sky| sky.model.as_str()), Some("clear"));
     }
     let place = "[site]\nlatitude = 35.68\nlongitude = 139.77\n";
-    assert!(scene(&format!("{place}time = 2026-06-21T22:00:00+09:00\n{BOX}")).sun.is_none(), "at night");
+    // At night it is where it is: at most 90° − 35.68° − 23.44° = 30.9° deep (at 23:43), and an hour's turn is 10°
+    // or less, so more than 12° deep at ten.
+    let night = scene(&format!("{place}time = 2026-06-21T22:00:00+09:00\n{BOX}")).sun.unwrap();
+    assert!(night.altitude < -12.0 && night.altitude > -31.0 && night.toward.y < 0.0, "{night:?}");
+    let set = scene("[sun]\naltitude = -6\nazimuth = 300\nilluminance = 1000\n").sun.unwrap();
+    assert_eq!((set.altitude, set.azimuth, set.illuminance), (-6.0, 300.0, Some(1000.0)));
     assert!(scene(&format!("{place}{BOX}")).sun.is_none(), "no time, no sun");
     let off = "time = 2026-06-21T10:00:00+09:00\n[sun]\noff = true\n[sky]\noff = true\n";
     let dark = scene(&format!("{place}{off}{BOX}"));

@@ -59,12 +59,11 @@ fn time(spot: &Spot<'_>, moment: &Moment) -> Result<(Timestamp, Offset), Error> 
     Ok((time, offset))
 }
 
-/// The sun: as `[sun]` says, else that of place and time if the file gives both; none while its whole disc
-/// is below the horizon.
+/// The sun: as `[sun]` says, else that of place and time if the file gives both. Below the horizon it stays
+/// where it is: it lights nothing, but a sky at dusk asks where it went.
 pub(crate) fn sun(root: &Spot<'_>, file: &SceneFile, site: &Site) -> Result<Option<Sun>, Error> {
     let timed = file.site.as_ref().is_some_and(|site| site.time.is_some());
-    let natural = || site.sun().filter(|sun| sun.altitude > -0.5 * SUN_DIAMETER);
-    let Some(table) = &file.sun else { return Ok(if timed { natural() } else { None }) };
+    let Some(table) = &file.sun else { return Ok(if timed { site.sun() } else { None }) };
     if table.off {
         return Ok(None);
     }
@@ -73,7 +72,7 @@ pub(crate) fn sun(root: &Spot<'_>, file: &SceneFile, site: &Site) -> Result<Opti
     if placed.is_none() && !timed {
         return Err(spot.error("needs altitude and azimuth, or a [site] with latitude, longitude and time"));
     }
-    let Some(mut sun) = placed.or_else(natural) else { return Ok(None) };
+    let Some(mut sun) = placed.or_else(|| site.sun()) else { return Ok(None) };
     sun.illuminance =
         table.illuminance.map(|lx| spot.key("illuminance").within(lx, 0.0, 1e9, "lx")).transpose()?;
     sun.spectrum = spot.spectrum(table.temperature, table.rgb, table.spectrum.as_deref())?;
