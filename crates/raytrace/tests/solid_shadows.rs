@@ -1,8 +1,10 @@
 //! Shadow intervals of solids against rays, and the two ways of searching against each other.
 
-use glam::{DAffine3, DMat3, DVec3};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use keikan_raytrace::solid::{Acceleration, Body, Node, Shape, Solids};
-use light::{Bodies, Nearest, Occlude, PointSource, Ray, Stretch};
+use light::{Bodies, Medium, Nearest, Occlude, PointSource, Ray, Spectrum, Stretch, check, fresnel};
 
 fn at(shape: Shape, scale: f64, place: DVec3) -> Node {
     let world_from_solid = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(scale)), place);
@@ -141,4 +143,45 @@ fn hulls_waste_what_they_are_said_to() {
     // Squares about circles: 4/π = 1.273 for caps and sides alike.
     assert!((outline(Shape::Cylinder) / pi - 4.0 / pi).abs() < 1e-7);
     assert!((outline(Shape::Cone) / (pi * (1.0 + 2f64.sqrt()) / 4.0) - 4.0 / pi).abs() < 1e-7);
+}
+
+#[test]
+fn light_through_glass_is_coloured_and_less() {
+    let absorption = Spectrum::splat(0.7);
+    let glass = Medium { index: 1.5, absorption, ..Medium::default() };
+    let bodies = |medium: Medium| {
+        let ball = at(Shape::Sphere, 1.0, DVec3::ZERO);
+        // Of two parts that touch: the face between them is none.
+        let block = |x: f64| at(Shape::cube(), 0.5, DVec3::new(x, 0.0, 4.0));
+        let pair = Node::Union(vec![block(-0.5), block(0.5)]);
+        let body = |node| Body { node, medium: Some(Arc::new(medium)) };
+        Solids::new(vec![body(ball), body(pair)], 0).expect("glass")
+    };
+    let solids = bodies(glass);
+    let through = |ray: Ray| solids.transmittance(&ray).max();
+    let expected = ((1.0 - fresnel(1.5, 1.0)).powi(2) * (-0.7f64 * 2.0).exp()) as f32;
+    // Head on: two interfaces and 2 m, in either body. A few roundings of f32.
+    let near = |value: f32| (value - expected).abs() <= 4.0 * f32::EPSILON;
+    assert!(near(through(Ray::between(Vec3::new(-3.0, 0.0, 0.0), Vec3::new(3.0, 0.0, 0.0)))));
+    assert!(near(through(Ray::between(Vec3::new(-3.0, 0.0, 4.0), Vec3::new(3.0, 0.0, 4.0)))));
+    assert_eq!(through(Ray::between(Vec3::new(-3.0, 0.0, 2.0), Vec3::new(3.0, 0.0, 2.0))), 1.0);
+    // A shadow that may be coloured is never said to be dark.
+    let mut stretches = Vec::new();
+    solids.shadows(
+        &PointSource::Toward(DVec3::Y),
+        DVec3::new(-2.0, -1.5, 0.0),
+        DVec3::new(2.0, -1.5, 0.0),
+        &mut stretches,
+    );
+    assert!(stretches.len() == 1 && !stretches[0].dark);
+    let clear = bodies(Medium::default());
+    for index in 0..500 {
+        let segment = Ray::between(place(index).as_vec3(), place(index + 3).as_vec3());
+        assert_eq!(clear.transmittance(&segment), Spectrum::ONE);
+        // The end walked back from is rounded by δ = 2⁻²³ · 9 m. The share changes fastest at grazing, as a root:
+        // a ray that passes a ball at a depth h below its rim meets it at cos = √(2h), and 4 · √(2δ) < 6e-3
+        // bounds what both interfaces let through there (1 − F ≤ 4 cos each, one of them being at most 1).
+        assert!(check::reciprocity(&solids, &segment) <= 6e-3, "{segment:?}");
+        assert!(solids.transmittance(&segment).max() <= 1.0);
+    }
 }

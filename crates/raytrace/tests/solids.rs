@@ -99,6 +99,14 @@ const SKIN: f64 = 1e-13;
 fn agrees(node: &Node, solids: &Solids, line: (DVec3, DVec3)) -> Result<usize, String> {
     let walls = solids.crossings(0, line);
     let mut ends: Vec<f64> = walls.iter().map(|wall| wall.t).collect();
+    let mut after = f64::NEG_INFINITY;
+    let one_by_one = std::iter::from_fn(|| {
+        after = solids.meet(0, line, after)?;
+        Some(after)
+    });
+    if !one_by_one.eq(ends.iter().copied()) {
+        return Err(format!("met otherwise one by one on {line:?}: {walls:?}"));
+    }
     ends.insert(0, -20.0);
     ends.push(20.0);
     for (index, pair) in ends.windows(2).enumerate() {
@@ -239,6 +247,72 @@ fn deep_trees_of_anything() {
         met += torture(&node, seed + 100);
     }
     assert!(met > 5000, "{met}");
+}
+
+#[test]
+fn more_members_than_fit_on_the_stack() {
+    let mut dice = Dice(11);
+    let some = |dice: &mut Dice| (0..20).map(|_| solid(dice.shape(), dice.placement())).collect::<Vec<_>>();
+    let node = minus(Node::Union(some(&mut dice)), some(&mut dice));
+    assert!(torture(&node, 1) > 100);
+}
+
+#[test]
+fn polyhedra_of_any_half_spaces() {
+    let mut dice = Dice(13);
+    for seed in 0..40 {
+        let count = 1 + (dice.roll() * 12.0) as usize;
+        let Shape::Polyhedron(mut planes) = Shape::cube() else { unreachable!() };
+        planes
+            .extend((0..count).map(|_| Plane { normal: dice.direction() * 3.0, offset: 3.0 * dice.roll() }));
+        // Some twice, some that touch nothing.
+        planes.push(planes[0]);
+        planes.push(Plane { normal: DVec3::ONE, offset: 9.0 });
+        let node = solid(Shape::Polyhedron(planes), dice.placement());
+        torture(&node, seed);
+        let solids = bodies(vec![node.clone()]);
+        let hull = &solids.hulls()[0];
+        // Its own faces: corners lie on it (rounding of corners of nearly parallel planes: 1e-10 of its size),
+        // edges join two faces each (Euler: V − E + F = 2 with 3 F = 2 E).
+        assert!(hull.corners.iter().all(|&corner| outside(&node, corner).abs() < 1e-9));
+        assert_eq!(2 * hull.corners.len(), hull.faces.len() + 4);
+    }
+}
+
+#[test]
+fn far_from_the_origin_nothing_changes_but_rounding() {
+    // Moved by multiples of 2^-10 the placements are the same numbers there, rounded to 2^-33 m.
+    let far = DAffine3::from_translation(DVec3::new(1_048_576.0, -524_288.0, 1_048_576.0));
+    let mut dice = Dice(17);
+    let mut compared = 0;
+    for _ in 0..20 {
+        let (shape, cutter) = (dice.shape(), dice.shape());
+        let (a, b) = (dice.placement(), dice.placement());
+        let make = |by: DAffine3| {
+            bodies(vec![minus(solid(shape.clone(), by * a), vec![solid(cutter.clone(), by * b)])])
+        };
+        let (here, there) = (make(DAffine3::IDENTITY), make(far));
+        for _ in 0..200 {
+            let direction = dice.direction();
+            let origin =
+                (dice.within(1.0) * 1024.0).round() / 1024.0 - (direction * 5.0 * 1024.0).round() / 1024.0;
+            let (near, moved) = (
+                here.crossings(0, (origin, direction)),
+                there.crossings(0, (origin + far.translation, direction)),
+            );
+            // 2^-33 m across a surface is so much more along the line as it is seen edge-on; rims may appear.
+            if near.iter().any(|wall| wall.normal.dot(direction).abs() < 1e-3) || near.len() != moved.len() {
+                continue;
+            }
+            for (p, q) in near.iter().zip(&moved) {
+                let across = (p.t - q.t).abs() * p.normal.dot(direction).abs();
+                // Three placements' coordinates round, and points do: 8 of these steps bound it.
+                assert!(across <= 8.0 * 2f64.powi(-33), "{p:?} {q:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 1000, "{compared}");
 }
 
 #[test]

@@ -5,6 +5,8 @@ use light::{
     Bodies, Hit, Hull, Nearest, Occlude, Path, Place, PointSource, Ray, Spectrum, Stretch, rounding::UNIT,
 };
 
+use crate::transmit;
+
 use super::{
     Acceleration, Crossing, Ready, Solids,
     csg::{Compound, Wall},
@@ -167,10 +169,36 @@ impl Nearest for Solids {
     }
 }
 
+impl Solids {
+    /// The share of light that one body lets through between 0 and `length`.
+    fn lets_through(&self, body: u32, line: (DVec3, DVec3), length: f64) -> Spectrum {
+        let ready = &self.bodies[body as usize];
+        let Some(medium) = &ready.medium else {
+            return match self.first(body, line, 0.0, length) {
+                Some(_) => Spectrum::ZERO,
+                None => Spectrum::ONE,
+            };
+        };
+        let mut crossings = Vec::new();
+        ready.compound.walls(line, |wall| {
+            if wall.end.t > 0.0 && wall.end.t < length {
+                let Crossing { t, normal: outward, .. } = ready.compound.crossing(&wall, line);
+                crossings.push(transmit::Crossing { t, outward });
+            }
+            wall.end.t >= length
+        });
+        if crossings.is_empty() {
+            return Spectrum::ONE;
+        }
+        // Walls that are one have been joined already: none are the same by being near.
+        transmit::through(line.1.normalize(), &mut crossings, length, 0.0, medium)
+    }
+}
+
 impl Fan {
     /// What is behind a body's hulls is to be asked for, what is behind its cores is dark.
     fn stretches(&self, body: &Ready, out: &mut Vec<Stretch>) {
-        let mut lamp = false;
+        let (mut lamp, mut any) = (false, false);
         for shell in &body.shells {
             let (from, to) = match self.shadow(shell, &body.bounds, MARGIN) {
                 Shadow::Nothing => continue,
@@ -180,10 +208,11 @@ impl Fan {
                     (0.0, 1.0)
                 }
             };
+            any = true;
             out.push(Stretch { from, to, dark: false });
         }
         // With a lamp and a place both in the body there need be no wall between them.
-        if lamp {
+        if lamp || !any {
             return;
         }
         for core in &body.cores {
@@ -198,15 +227,12 @@ impl Occlude for Solids {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let line = line(segment);
         let length = f64::from(segment.length);
-        let mut through = Spectrum::ONE;
+        let mut left = Spectrum::ONE;
         self.search(line, length, |body, reach| {
-            if self.first(body, line, 0.0, length).is_none() {
-                return reach;
-            }
-            through = Spectrum::ZERO;
-            f64::NEG_INFINITY
+            left *= self.lets_through(body, line, length);
+            if left.is_zero() { f64::NEG_INFINITY } else { reach }
         });
-        through
+        left
     }
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {

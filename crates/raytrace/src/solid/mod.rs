@@ -18,6 +18,9 @@
 //! within about 24 √3 · 2⁻⁵³ · (|o − c| + |c| + s) of the true surface, times how skew its placement's axes are: 5 nm
 //! for 10⁶ m. [`light::Hit`] carries the bound of its place, the rounding to f32 included.
 //!
+//! **Shadows.** An opaque body lets nothing through, one with a medium what [`crate::through`] says of its walls.
+//! Shadow intervals are asked for behind circumscribed polyhedra, and known to be dark behind inscribed ones.
+//!
 //! **Where it is wrong.** Slivers and gaps thinner than that bound are not there. Lines that run *within* a face,
 //! to that bound, are taken as if they ran next to it, on the same side for all faces in common. Where the
 //! faces of two members coincide, the one named first in the scene gives the material.

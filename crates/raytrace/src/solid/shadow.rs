@@ -46,14 +46,18 @@ impl Fan {
             PointSource::Toward(way) => (self.a, way * 4.0 * size, self.b - self.a, 0.0),
         };
         let sun = matches!(self.source, PointSource::Toward(_));
-        let mut polygon = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+        let (mut polygon, mut kept) = (Vec::with_capacity(16), Vec::with_capacity(16));
+        polygon.extend([DVec2::ZERO, DVec2::X, DVec2::Y]);
         if sun {
             polygon.insert(2, DVec2::ONE);
         }
         let pad = margin * size.max(lamp);
         for plane in planes {
             let height = plane.normal.dot(corner) - plane.offset - pad;
-            clip(&mut polygon, height, DVec2::new(plane.normal.dot(u), plane.normal.dot(v)));
+            let along = DVec2::new(plane.normal.dot(u), plane.normal.dot(v));
+            if !clip(&mut polygon, &mut kept, height, along) {
+                return Shadow::Nothing;
+            }
         }
         // Distance from the segment, and place along it; none at the lamp.
         let length = u.length().max(v.length());
@@ -93,10 +97,14 @@ pub(crate) enum Shadow {
     Lamp,
 }
 
-/// Keeps the part of a convex polygon with height + along · x ≤ 0 (Sutherland and Hodgman 1974).
-fn clip(polygon: &mut Vec<DVec2>, height: f64, along: DVec2) {
+/// Keeps the part of a convex polygon with height + along · x ≤ 0 (Sutherland and Hodgman 1974); false when none
+/// is left. `kept` is room to work in.
+fn clip(polygon: &mut Vec<DVec2>, kept: &mut Vec<DVec2>, height: f64, along: DVec2) -> bool {
     let value = |x: &DVec2| height + along.dot(*x);
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    if polygon.iter().all(|x| value(x) <= 0.0) {
+        return true; // most planes of a polyhedron cut nothing off
+    }
+    kept.clear();
     for (i, x) in polygon.iter().enumerate() {
         let next = &polygon[(i + 1) % polygon.len()];
         let (here, there) = (value(x), value(next));
@@ -107,5 +115,6 @@ fn clip(polygon: &mut Vec<DVec2>, height: f64, along: DVec2) {
             kept.push(*x + (*next - *x) * (here / (here - there)));
         }
     }
-    *polygon = kept;
+    std::mem::swap(polygon, kept);
+    !polygon.is_empty()
 }
