@@ -15,7 +15,7 @@ pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
     /// Threads to use; 0 = all the machine has. The answer does not depend on it.
-    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    #[arg(long, global = true, default_value_t = 0, value_name = "N", value_parser = threads)]
     pub threads: usize,
     /// Machine-readable answer on stdout.
     #[arg(long, global = true)]
@@ -72,13 +72,13 @@ pub struct Render {
     #[arg(long)]
     pub layers: bool,
     /// Luminance that the PNG shows as mid grey (18 %), in cd/m²; found from the picture without it.
-    #[arg(long, value_name = "CD/M2")]
+    #[arg(long, value_name = "CD/M2", value_parser = positive)]
     pub exposure: Option<f32>,
     /// Tone curve of the PNG.
     #[arg(long, value_enum, default_value_t)]
     pub tone: Tone,
-    /// Write the PNG in false colour with a legend in cd/m²: `auto`, or MIN:MAX; logarithmic.
-    #[arg(long, value_name = "MIN:MAX", num_args = 0..=1, default_missing_value = "auto")]
+    /// Write the PNG in false colour with a legend in cd/m²: --false-colour, or =MIN:MAX; logarithmic.
+    #[arg(long, value_name = "MIN:MAX", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
     pub false_colour: Option<Span>,
     /// False colour on a linear scale.
     #[arg(long, requires = "false_colour")]
@@ -187,15 +187,34 @@ impl FromStr for Span {
         }
         let ends = text.split_once(':').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         match ends {
-            Some((low, high)) if 0.0 <= low && low < high && f32::is_finite(high) => Ok(Self::Fixed(low, high)),
+            Some((low, high)) if 0.0 <= low && low < high && f32::is_finite(high) => {
+                Ok(Self::Fixed(low, high))
+            }
             _ => Err("MIN:MAX in cd/m², 0 ≤ MIN < MAX, or auto".to_owned()),
         }
     }
 }
 
+fn positive(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a number above 0 is needed".to_owned()),
+    }
+}
+
+/// More threads than any machine has are a slip of the pen, and would bring it down.
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if n <= 1024 => Ok(n),
+        _ => Err("a whole number from 0 to 1024 is needed".to_owned()),
+    }
+}
+
 fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
         _ => Err("NAME=VALUE is needed".to_owned()),
     }
 }

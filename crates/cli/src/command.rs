@@ -8,9 +8,9 @@ use std::sync::atomic::Ordering;
 use scene::Scene;
 
 use crate::args::{self, Cli, Command};
-use crate::output::{self, Exposure, Header, Picture, Scale};
+use crate::output::{self, Exposure, Header, Picture, Scale, Target};
 use crate::pipeline::Monitor;
-use crate::plan::Plan;
+use crate::plan::{MOST_PIXELS, Plan};
 use crate::report::{self, Summary, Timings};
 use crate::{Error, assemble, caption, compare, lux, progress};
 
@@ -74,10 +74,19 @@ fn difference(args: &args::Compare, json: bool) -> Result<(), Error> {
 fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let monitor = progress::monitor();
     let outputs = outputs(args)?;
+    let targets: Vec<Target> = outputs.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let mut seconds = Timings::default();
     let scene = seconds.time("load", || load(args.view.scene.as_deref()))?;
     let plan = Plan::new(&scene, &args.view)?;
+    let layers = if args.layers { scene.lights.len() as u64 + 4 } else { 1 };
+    let pixels = plan.region.columns.len() as u64 * plan.region.rows.len() as u64;
+    if pixels.saturating_mul(layers) > MOST_PIXELS {
+        return Err(Error::Usage(format!(
+            "--layers: {layers} layers of {pixels} pixels are more than {MOST_PIXELS} pixels in all; render a part with --region"
+        )));
+    }
     let pipeline = seconds.time("assemble", || assemble::assemble(&plan, &scene))?;
+    monitor.rendering.store(true, Ordering::Relaxed);
     let film = seconds.time("render", || {
         progress::shown(&monitor, plan.region.rows.len() as u64, || {
             pipeline.render(&plan.region, args.layers, &monitor)
@@ -87,7 +96,8 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let pictures = seconds.time("develop", || output::develop(&film));
     drop(film);
     let site = caption::describe(&scene);
-    let exposure = seconds.time("write", || write(args, &outputs, &pictures, &scene, &plan, &monitor))?;
+    let exposure =
+        seconds.time("write", || write(args, targets, &outputs, &pictures, &scene, &plan, &monitor))?;
     let luminance = &pictures[0].luminance;
     let mean = luminance.iter().map(|&l| f64::from(l)).sum::<f64>() / luminance.len().max(1) as f64;
     let summary = Summary {
@@ -113,9 +123,21 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
 fn outputs(args: &args::Render) -> Result<Vec<PathBuf>, Error> {
     if args.output.is_empty() {
         let stem = args.view.scene.as_deref().and_then(Path::file_stem).unwrap_or("park".as_ref());
-        return Ok(["png", "exr"].map(|extension| Path::new(stem).with_extension(extension)).to_vec());
+        let named = |extension: &str| {
+            let mut name = stem.to_owned();
+            name.push(extension);
+            PathBuf::from(name)
+        };
+        return Ok(vec![named(".png"), named(".exr")]);
     }
-    for path in &args.output {
+    let exr = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+    if args.layers && !args.output.iter().any(exr) {
+        return Err(Error::Usage("--layers: layers need an EXR to stand in; add -o NAME.exr".to_owned()));
+    }
+    for (i, path) in args.output.iter().enumerate() {
+        if args.output[..i].contains(path) {
+            return Err(Error::Usage(format!("-o {}: given twice", path.display())));
+        }
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
         if !["png", "exr"].contains(&extension.to_ascii_lowercase().as_str()) {
             return Err(Error::Usage(format!(
@@ -130,6 +152,7 @@ fn outputs(args: &args::Render) -> Result<Vec<PathBuf>, Error> {
 /// Encodes everything first and writes then, so that an error leaves no file behind.
 fn write(
     args: &args::Render,
+    targets: Vec<Target>,
     outputs: &[PathBuf],
     pictures: &[Picture],
     scene: &Scene,
@@ -139,7 +162,7 @@ fn write(
     let whole = &pictures[0];
     let mut said = None;
     let mut files = Vec::new();
-    for path in outputs {
+    for (path, target) in outputs.iter().zip(targets) {
         let is_exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
         let bytes = if is_exr {
             output::encode_exr(pictures, &header(args, scene, plan))
@@ -149,16 +172,19 @@ fn write(
             output::draw_false_colour(whole, &scale)
         } else {
             let exposure = Exposure::of(whole, args.exposure, args.tone);
-            said = Some(format!("PNG: {:.4} cd/m² shown as mid grey, tone curve {:?}", exposure.mid_grey, exposure.tone));
+            said = Some(format!(
+                "PNG: {:.4} cd/m² shown as mid grey, tone curve {:?}",
+                exposure.mid_grey, exposure.tone
+            ));
             output::encode_png(whole, &exposure)
         };
         let bytes = bytes.map_err(|what| Error::Output { path: path.display().to_string(), what })?;
-        files.push((path, bytes));
+        files.push((target, bytes));
     }
     if monitor.interrupted.load(Ordering::Relaxed) {
         return Err(Error::Interrupted);
     }
-    files.into_iter().try_for_each(|(path, bytes)| output::write(path, &bytes))?;
+    output::write(&files)?;
     Ok(said)
 }
 
@@ -179,6 +205,8 @@ fn header(args: &args::Render, scene: &Scene, plan: &Plan) -> Header {
         owner: args.owner.clone(),
         comments: format!("keikan: absolute radiometric rendering; {}", caption::describe(scene)),
         made_by: made_by.to_string(),
+        corner: [plan.region.columns.start, plan.region.rows.start],
+        whole: [plan.width, plan.height],
     }
 }
 

@@ -59,7 +59,9 @@ pub fn read(path: &Path) -> Result<Picture, Error> {
             let rgb = image.pixels().map(|p| Vec3::from_array(p.0.map(light::colour::decode_srgb))).collect();
             Ok(Picture { width, height, rgb })
         }
-        other => Err(wrong(format!("\"{other}\" is not a format that can be compared; there are: exr, png, jpg"))),
+        other => {
+            Err(wrong(format!("\"{other}\" is not a format that can be compared; there are: exr, png, jpg")))
+        }
     }
 }
 
@@ -101,7 +103,8 @@ pub fn compare(a: &Picture, b: &Picture) -> Result<Difference, Error> {
         .zip(&b.rgb)
         .map(|(a, b)| (*a - *b).abs().max_element())
         .enumerate()
-        .fold((0, 0.0), |best, (i, d)| if d > best.1 { (i, d) } else { best });
+        // A difference that is no number is the largest of all.
+        .fold((0, 0.0), |best: (usize, f32), (i, d)| if d > best.1 || d.is_nan() { (i, d) } else { best });
     let white = white(b);
     let mut delta_e: Vec<f32> =
         a.rgb.par_iter().zip(&b.rgb).map(|(&a, &b)| lab(a / white).difference(lab(b / white))).collect();
@@ -116,7 +119,11 @@ pub fn compare(a: &Picture, b: &Picture) -> Result<Difference, Error> {
         delta_e_mean: mean_delta,
         delta_e_99: f64::from(delta_e_99),
         ssim: ssim(a, b, white)?,
-        identical: a.rgb.iter().zip(&b.rgb).all(|(a, b)| a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)),
+        identical: a
+            .rgb
+            .iter()
+            .zip(&b.rgb)
+            .all(|(a, b)| a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)),
     })
 }
 

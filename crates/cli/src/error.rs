@@ -9,6 +9,9 @@ pub enum Error {
     /// The scene could not be loaded: exit code 1.
     #[error(transparent)]
     Scene(#[from] scene::Error),
+    /// The scene asks for something that does not exist: exit code 1.
+    #[error("{0}")]
+    Content(String),
     /// An output could not be written whole: exit code 1.
     #[error("{path}: {what}")]
     Output {
@@ -31,11 +34,19 @@ pub enum Error {
 }
 
 impl Error {
+    /// The same, but the scene file's fault instead of the caller's.
+    pub(crate) fn in_scene(self) -> Self {
+        match self {
+            Self::Usage(what) => Self::Content(what),
+            other => other,
+        }
+    }
+
     /// The process exit code of this error.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
-            Self::Scene(_) | Self::Output { .. } | Self::Input { .. } => 1,
+            Self::Scene(_) | Self::Content(_) | Self::Output { .. } | Self::Input { .. } => 1,
             Self::Interrupted => 130,
         }
     }

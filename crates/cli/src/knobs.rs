@@ -67,13 +67,13 @@ pub const KNOBS: &[Knob] = &[
         name: "sub-scanlines",
         domain: Domain::Integer(1, 64),
         presets: ["2", "4", "16"],
-        doc: "scanlines per pixel row; time grows with it, the error of near-horizontal edges falls with its inverse",
+        doc: "scanlines per pixel row; time grows with it, the error of edges falls (scan-rule = exact: of outlines with many corners)",
     },
     Knob {
         name: "scan-rule",
-        domain: Domain::Choice(&["trapezoid", "midpoint"]),
-        presets: ["midpoint"; 3],
-        doc: "how sub-scanlines sum to an area: thesis 2.3.3's trapezoids, or midpoints",
+        domain: Domain::Choice(&["trapezoid", "midpoint", "exact"]),
+        presets: ["exact"; 3],
+        doc: "how sub-scanlines sum to an area: thesis 2.3.3's trapezoids, midpoints, or areas between the edges themselves (a tenth to four tenths slower than midpoints)",
     },
     Knob {
         name: "shading",
@@ -95,9 +95,9 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "accelerate",
-        domain: Domain::Choice(&["bvh", "none"]),
+        domain: Domain::Choice(&["bvh", "view", "none"]),
         presets: ["bvh"; 3],
-        doc: "how rays find faces: a bounding volume hierarchy, or every face in turn (for comparison only)",
+        doc: "how rays find faces: by bounding volumes, by them for view and mirror rays only, or every face in turn (the cases of the thesis' table 2.1; slow)",
     },
     Knob {
         name: "bvh-quality",

@@ -69,7 +69,8 @@ pub fn table(scene: &Scene, pipeline: &Pipeline) -> Table {
             Row { sensor: sensor.name.clone(), point, position, total: parts.iter().sum(), parts }
         })
         .collect();
-    let uniformity = scene.sensors.iter().filter(|s| s.points.len() > 1).map(|s| uniformity(&s.name, &rows)).collect();
+    let uniformity =
+        scene.sensors.iter().filter(|s| s.points.len() > 1).map(|s| uniformity(&s.name, &rows)).collect();
     Table { sources: pipeline.sources.iter().map(|source| source.name.clone()).collect(), rows, uniformity }
 }
 
@@ -106,5 +107,9 @@ impl fmt::Display for Table {
 
 /// A CSV field: quoted where it must be.
 fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }

@@ -1,11 +1,14 @@
 //! The assembled stages, and the two things they do together: a picture, and lux.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::DVec2;
-use light::{Arrival, Film, Illuminate, Layer, Nearest, Occlude, Path, Piece, Place, Ray, See, Shade, Spectrum, Surroundings, View};
+use light::{
+    Arrival, Film, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, Ray, See, Shade, Spectrum,
+    Surroundings, Vacuum, View,
+};
 use rayon::prelude::*;
 
 use crate::Error;
@@ -62,6 +65,10 @@ pub struct Region {
 pub struct Monitor {
     /// Set to end early.
     pub interrupted: AtomicBool,
+    /// True from the first pixel to the last byte: then an interruption is looked at and ends tidily.
+    pub rendering: AtomicBool,
+    /// True when it has been asked for before.
+    pub asked: AtomicBool,
     /// Rows done.
     pub rows: AtomicU64,
     /// Pieces of surface shaded.
@@ -120,7 +127,7 @@ impl Pipeline {
             monitor.pieces.fetch_add(pieces.len() as u64, Ordering::Relaxed);
             let start = (row - first) as usize * width * lit_by.len();
             for (layer, (_, sources)) in lit_by.iter().enumerate() {
-                let around = Around { pipeline: self, sources };
+                let around = Around { pipeline: self, sources, known: Known::default() };
                 let line = &mut pixels[start + layer * width..][..width];
                 self.shade_row(row, columns.start, pieces, &around, line, monitor);
             }
@@ -146,6 +153,7 @@ impl Pipeline {
                 return;
             }
             let column = (piece.column - first) as usize;
+            let around = Around { known: piece.known, ..*around };
             line[column] += around.leaves(&piece.hit) * piece.share;
             covered[column] += piece.share;
         }
@@ -166,9 +174,12 @@ impl Pipeline {
 }
 
 /// The pipeline as one shader sees it: all sources, or those of one layer.
+#[derive(Clone, Copy)]
 struct Around<'a> {
     pipeline: &'a Pipeline,
     sources: &'a [usize],
+    /// Of the hit that is being shaded; nothing is known of what its further rays meet.
+    known: Known,
 }
 
 impl Around<'_> {
@@ -182,14 +193,23 @@ impl Around<'_> {
     /// What is behind everything: for the eye all sources, for mirrored rays only those without highlights.
     fn background(&self, ray: &Ray, path: Path) -> Spectrum {
         let sources = self.sources.iter().map(|&i| &self.pipeline.sources[i]);
-        sources.filter(|source| path.depth == 0 || !source.beam).map(|source| source.light.radiance(ray)).sum()
+        sources
+            .filter(|source| path.depth == 0 || !source.beam)
+            .map(|source| source.light.radiance(ray))
+            .sum()
     }
 }
 
 impl Surroundings for Around<'_> {
     fn arrivals(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
         for &i in self.sources {
-            self.pipeline.sources[i].light.arrivals(place, &*self.pipeline.occlude, receive);
+            let source = &self.pipeline.sources[i].light;
+            let bit = if i < 64 { 1u64 << i } else { 0 };
+            if self.known.lit & bit != 0 {
+                source.arrivals(place, &Vacuum, receive);
+            } else if self.known.dark & bit == 0 {
+                source.arrivals(place, &*self.pipeline.occlude, receive);
+            }
         }
     }
 
@@ -200,7 +220,7 @@ impl Surroundings for Around<'_> {
         match self.pipeline.nearest.nearest(ray) {
             Some(mut hit) => {
                 hit.path = path;
-                self.leaves(&hit)
+                Around { known: Known::default(), ..*self }.leaves(&hit)
             }
             None => self.background(ray, path),
         }
@@ -211,12 +231,20 @@ impl Surroundings for Around<'_> {
 fn separate_emission(rows: &mut [Spectrum], width: usize) {
     let (parts, emission) = rows.split_at_mut(rows.len() - width);
     for part in parts[width..].chunks_mut(width) {
-        part.iter_mut().zip(emission.iter()).for_each(|(part, own)| *part = *part - *own);
+        // Rounding must not make light negative.
+        part.iter_mut()
+            .zip(emission.iter())
+            .for_each(|(part, own)| *part = (*part - *own).map(|band| band.max(0.0)));
     }
 }
 
 /// From rows with all layers side by side to one picture per layer.
-fn film(width: usize, height: usize, names: impl ExactSizeIterator<Item = String>, rows: Vec<Spectrum>) -> Film {
+fn film(
+    width: usize,
+    height: usize,
+    names: impl ExactSizeIterator<Item = String>,
+    rows: Vec<Spectrum>,
+) -> Film {
     let count = names.len();
     let pick = |layer: usize| -> Vec<Spectrum> {
         (0..height).flat_map(|row| rows[(row * count + layer) * width..][..width].iter().copied()).collect()

@@ -7,15 +7,18 @@ use scene::{Camera, Scene};
 use crate::assemble::mirrors;
 use crate::knobs::{Preset, Settings};
 use crate::pipeline::Region;
-use crate::{Error, args};
+use crate::{Error, args, assemble};
 
-/// Most pixels of one picture: 2²⁸ spectra are 8 GiB.
-const MOST_PIXELS: u64 = 1 << 28;
+/// Most pixels of all layers together: 2²⁷ spectra are 4 GiB, and developing them takes as much again.
+pub(crate) const MOST_PIXELS: u64 = 1 << 27;
 
 /// Everything decided before anything is built.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Plan {
-    /// Name of the camera.
+    /// Index of the camera in the scene.
+    #[serde(skip)]
+    pub eye: usize,
+    /// Its name.
     pub camera: String,
     /// Pixels in a row of the whole picture.
     pub width: u32,
@@ -70,15 +73,18 @@ impl Plan {
     pub fn new(scene: &Scene, args: &args::View) -> Result<Self, Error> {
         let mut settings = Settings::preset(args.preset);
         for (name, value) in &scene.settings {
-            settings.set(name, value, "[settings]")?;
+            settings.set(name, value, "the scene file's [settings] or [sky]").map_err(Error::in_scene)?;
         }
         for (name, value) in &args.set {
             settings.set(name, value, "--set")?;
         }
-        let camera = camera(scene, args.camera.as_deref())?;
-        let (width, height) = size(camera, args.size)?;
+        check(scene, &settings)?;
+        let eye = camera(scene, args.camera.as_deref())?;
+        let camera = &scene.cameras[eye];
+        let (width, height) = size(camera, args.size);
         let contents = Contents::of(scene);
         Ok(Self {
+            eye,
             camera: camera.name.clone(),
             width,
             height,
@@ -92,7 +98,7 @@ impl Plan {
 
     /// The camera that was chosen.
     pub fn camera<'a>(&self, scene: &'a Scene) -> Option<&'a Camera> {
-        scene.cameras.iter().find(|camera| camera.name == self.camera)
+        scene.cameras.get(self.eye)
     }
 }
 
@@ -117,14 +123,13 @@ impl Contents {
 }
 
 /// A camera by name, or by its number from 1; the first without either.
-fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Error> {
-    let by_number =
-        |text: &str| text.parse::<usize>().ok().and_then(|n| scene.cameras.get(n.checked_sub(1)?));
+fn camera(scene: &Scene, wanted: Option<&str>) -> Result<usize, Error> {
+    let by_number = |text: &str| text.parse::<usize>().ok()?.checked_sub(1);
     let found = match wanted {
-        None => scene.cameras.first(),
-        Some(name) => scene.cameras.iter().find(|camera| camera.name == name).or_else(|| by_number(name)),
+        None => Some(0),
+        Some(name) => scene.cameras.iter().position(|camera| camera.name == name).or_else(|| by_number(name)),
     };
-    found.ok_or_else(|| {
+    found.filter(|index| *index < scene.cameras.len()).ok_or_else(|| {
         let names: Vec<_> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
         Error::Usage(format!(
             "--camera {}: no such camera; there are: {}",
@@ -135,22 +140,32 @@ fn camera<'a>(scene: &'a Scene, wanted: Option<&str>) -> Result<&'a Camera, Erro
 }
 
 /// Pixels of the picture: as asked, or 1280 wide at the camera's own aspect (16:10 where it states none).
-fn size(camera: &Camera, asked: Option<args::Size>) -> Result<(u32, u32), Error> {
+fn size(camera: &Camera, asked: Option<args::Size>) -> (u32, u32) {
     let aspect = camera.aspect.unwrap_or(1.6);
     let asked = asked.unwrap_or(args::Size { width: 1280, height: None });
-    let height =
-        asked.height.unwrap_or_else(|| (f64::from(asked.width) / aspect).round().clamp(1.0, 1e9) as u32);
-    if u64::from(asked.width) * u64::from(height) > MOST_PIXELS {
-        return Err(Error::Usage(format!(
-            "--size {}x{height}: more than {MOST_PIXELS} pixels; render it in parts with --region",
-            asked.width
-        )));
+    let own = || (f64::from(asked.width) / aspect).round().clamp(1.0, 65536.0) as u32;
+    (asked.width, asked.height.unwrap_or_else(own))
+}
+
+/// What is possible alone may not be possible together.
+fn check(scene: &Scene, settings: &Settings) -> Result<(), Error> {
+    let model = sky_model(scene, settings);
+    let known: Vec<_> = assemble::skies().chain(["none"]).collect();
+    if !known.contains(&model) {
+        let said = format!("[sky] model = \"{model}\": no such sky; there are: {}", known.join(", "));
+        return Err(Error::Content(said));
     }
-    Ok((asked.width, height))
+    Ok(())
 }
 
 fn region(asked: Option<args::Rectangle>, width: u32, height: u32) -> Result<Region, Error> {
-    let Some(r) = asked else { return Ok(Region { columns: 0..width, rows: 0..height }) };
+    let r = asked.unwrap_or(args::Rectangle { x: 0, y: 0, width, height });
+    if u64::from(r.width) * u64::from(r.height) > MOST_PIXELS {
+        return Err(Error::Usage(format!(
+            "{} x {} pixels are more than {MOST_PIXELS}; render them in parts with --region",
+            r.width, r.height
+        )));
+    }
     let (right, bottom) = (r.x.saturating_add(r.width), r.y.saturating_add(r.height));
     if right > width || bottom > height {
         return Err(Error::Usage(format!(
@@ -196,7 +211,7 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
     };
     let shade = stage("shade", "surface", format!("{} materials{traced}", contents.materials));
     let sun = match &scene.sun {
-        Some(sun) if sun.altitude > -1.0 => stage(
+        Some(sun) if sun.altitude > -0.5 * sun.diameter => stage(
             "illuminate",
             "sun",
             format!("{:.2}° high, azimuth {:.2}°, disc of {:.3}°", sun.altitude, sun.azimuth, sun.diameter),
@@ -248,6 +263,10 @@ impl fmt::Display for Plan {
             "{} triangles ({} stored) in {} placements, {} materials, {} lights",
             c.triangles, c.stored_triangles, c.instances, c.materials, c.lights
         )?;
+        if (self.region.columns.len(), self.region.rows.len()) != (self.width as usize, self.height as usize)
+        {
+            writeln!(f, "columns {:?} and rows {:?} of them", self.region.columns, self.region.rows)?;
+        }
         writeln!(f, "\nstages")?;
         for stage in &self.stages {
             let answer = if stage.answer.is_empty() { "-" } else { &stage.answer };
@@ -256,6 +275,7 @@ impl fmt::Display for Plan {
         writeln!(f, "\nknobs")?;
         for knob in crate::knobs::KNOBS {
             writeln!(f, "  {:<14} {:<10} {}", knob.name, self.settings.choice(knob.name), knob.doc)?;
+            writeln!(f, "  {:<25} may be {}", "", knob.domain)?;
         }
         Ok(())
     }

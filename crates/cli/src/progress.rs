@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::Error;
 use crate::pipeline::Monitor;
 
 /// A monitor that Ctrl-C reaches. A second call in one process shares the first one's signal handler.
@@ -14,7 +15,14 @@ pub(crate) fn monitor() -> Arc<Monitor> {
     let monitor = Arc::new(Monitor::default());
     let heard = Arc::clone(&monitor);
     // Only one handler can be set; a library user may have their own, then theirs counts.
-    let _ = ctrlc::set_handler(move || heard.interrupted.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(move || {
+        heard.interrupted.store(true, Ordering::Relaxed);
+        // Before rendering there is nothing to clean up, and whoever asks twice does not want to wait.
+        if !heard.rendering.load(Ordering::Relaxed) || heard.asked.swap(true, Ordering::Relaxed) {
+            eprintln!("keikan: {}", Error::Interrupted);
+            std::process::exit(i32::from(Error::Interrupted.exit_code()));
+        }
+    });
     monitor
 }
 
@@ -29,7 +37,15 @@ pub(crate) fn shown<T>(monitor: &Monitor, rows: u64, work: impl FnOnce() -> T) -
         bar.set_style(style);
     }
     let done = AtomicBool::new(false);
+    /// Ends the bar also when the work ends in a panic.
+    struct Done<'a>(&'a AtomicBool);
+    impl Drop for Done<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
     thread::scope(|scope| {
+        let ended = Done(&done);
         scope.spawn(|| {
             while !done.load(Ordering::Relaxed) {
                 bar.set_position(monitor.rows.load(Ordering::Relaxed));
@@ -38,7 +54,7 @@ pub(crate) fn shown<T>(monitor: &Monitor, rows: u64, work: impl FnOnce() -> T) -
             bar.finish_and_clear();
         });
         let result = work();
-        done.store(true, Ordering::Relaxed);
+        drop(ended);
         result
     })
 }

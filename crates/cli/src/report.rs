@@ -62,7 +62,8 @@ impl fmt::Display for Summary {
         if let Some(exposure) = &self.exposure {
             writeln!(f, "{exposure}")?;
         }
-        let seconds: Vec<String> = self.seconds.0.iter().map(|(stage, s)| format!("{stage} {s:.3} s")).collect();
+        let seconds: Vec<String> =
+            self.seconds.0.iter().map(|(stage, s)| format!("{stage} {s:.3} s")).collect();
         write!(f, "{}", seconds.join(", "))?;
         if let Some(mib) = self.peak_memory_mib {
             write!(f, "; {mib:.0} MiB at most")?;

@@ -53,7 +53,10 @@ fn the_exr_says_what_it_is() {
     assert_eq!(attributes.latitude, Some(35.01));
     assert_eq!(attributes.utc_offset, Some(-9.0 * 3600.0));
     assert_eq!(attributes.owner.as_ref().map(ToString::to_string), Some("A. Owner".to_owned()));
-    assert_eq!(attributes.capture_date.as_ref().map(ToString::to_string), Some("2026:10:25 15:10:00".to_owned()));
+    assert_eq!(
+        attributes.capture_date.as_ref().map(ToString::to_string),
+        Some("2026:10:25 15:10:00".to_owned())
+    );
     let channels: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
     for name in ["R", "G", "B", "Y", "sun.R", "sky.G", "lantern.B", "emission.R"] {
         assert!(channels.contains(&name.to_owned()), "{name} is missing from {channels:?}");
@@ -78,7 +81,8 @@ fn threads_change_no_bit() {
 #[test]
 fn false_colour_has_room_for_its_legend() {
     let folder = folder("false-colour");
-    let arguments = ["render", "--size", "64x80", "--preset", "draft", "--false-colour", "1:10000", "-o", "f.png"];
+    let arguments =
+        ["render", "--size", "64x80", "--preset", "draft", "--false-colour=1:10000", "-o", "f.png"];
     let done = keikan(&folder, &arguments);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let picture = image::open(folder.join("f.png")).unwrap();
@@ -94,6 +98,11 @@ fn usage_errors_are_2_and_list_what_is_possible() {
         (&["render", "--camera", "nobody"], "garden"),
         (&["render", "-o", "a.bmp"], "exr, png"),
         (&["render", "--size", "65536x65536"], "--region"),
+        (&["render", "--exposure", "0"], "above 0"),
+        (&["render", "--exposure", "nan"], "above 0"),
+        (&["render", "--threads", "100000"], "1024"),
+        (&["render", "--layers", "-o", "a.png"], "EXR"),
+        (&["render", "-o", "a.png", "-o", "a.png"], "twice"),
         (&["render", "--size", "0x5"], "1 to 65536"),
         (&["render", "--region", "0,0,9999,5"], "beyond"),
         (&["frobnicate"], "Usage"),
@@ -173,7 +182,8 @@ fn lux_are_a_table() {
     let csv = text(&keikan(&folder, &["lux"]).stdout);
     assert!(csv.starts_with("sensor,point,x_m,y_m,z_m,total_lx,sun_lx,sky_lx"), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 24 + 2);
-    let table: serde_json::Value = serde_json::from_slice(&keikan(&folder, &["lux", "--json"]).stdout).unwrap();
+    let table: serde_json::Value =
+        serde_json::from_slice(&keikan(&folder, &["lux", "--json"]).stdout).unwrap();
     for row in table["rows"].as_array().unwrap() {
         let parts: f64 = row["parts"].as_array().unwrap().iter().map(|p| p.as_f64().unwrap()).sum();
         assert!((row["total"].as_f64().unwrap() - parts).abs() <= 1e-9 * parts); // a sum of five f64

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::Ray;
+use crate::{Ray, rounding::gamma};
 
 /// A place that receives light: a point of a surface (or of a volume, with any normal).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +36,16 @@ impl Place {
         Ray { origin, direction, length: (length - offset).max(0.0) }
     }
 
-    /// The segment from this place to `target`, whose own end is not on a surface.
+    /// The segment from this place to `target`, both ends excluded: `target` may lie on a surface too, as a
+    /// lamp in a ceiling does, and that surface is not in its way.
     pub fn toward(&self, target: Vec3) -> Ray {
         let to = Ray::between(self.position, target);
         let left = self.leave(to.direction, to.length);
-        // Aim again from the moved origin, so that the segment ends at the target.
-        Ray::between(left.origin, target)
+        // Aim again from the moved origin, so that the segment ends at the target, but for what the target's
+        // coordinates, the direction and the length may be off by: a few roundings of the largest of them.
+        let exact = Ray::between(left.origin, target);
+        let reach = target.abs().max_element().max(left.origin.abs().max_element()) + exact.length;
+        Ray { length: (exact.length - gamma(16) * reach).max(0.0), ..exact }
     }
 
     /// The same place seen from its other side.

@@ -49,7 +49,7 @@ pub use medium::Medium;
 pub use mesh::{Geometry, Instance, Mesh, Opacity, Triangle};
 pub use occlude::{Occlude, PointSource, Product, Stretch, Vacuum};
 pub use ray::Ray;
-pub use see::{Nearest, Piece, See};
+pub use see::{First, Known, Nearest, Piece, See};
 pub use shade::{Dark, Lambert, Shade, Surroundings};
 pub use spectrum::Spectrum;
 pub use texture::{Texture, Wrap};

@@ -1,6 +1,7 @@
 //! What shows in these pixels, and what does this ray meet first?
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::{Hit, Ray};
 
@@ -14,6 +15,18 @@ pub struct Piece {
     pub share: f32,
     /// Where on the surface the piece is to be shaded.
     pub hit: Hit,
+    /// What is known of the lights that reach it.
+    pub known: Known,
+}
+
+/// What is known, before shading, of which point sources reach a piece of surface. Sources have numbers
+/// from 0 to 63, which whoever asked for the knowledge gave them; most often nothing is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Known {
+    /// Bit i: source i reaches all of it, with nothing in the way.
+    pub lit: u64,
+    /// Bit i: source i reaches nothing of it.
+    pub dark: u64,
 }
 
 /// Which pieces of surface show in these pixels?
@@ -34,4 +47,25 @@ pub trait See: Send + Sync {
 pub trait Nearest: Send + Sync {
     /// The first hit, if any. `hit.path` is [`crate::Path::EYE`]; the caller sets its own.
     fn nearest(&self, ray: &Ray) -> Option<Hit>;
+}
+
+/// The first hit of several: what is nearest among all that answer. An empty list meets nothing.
+#[derive(Clone, Default)]
+pub struct First(pub Vec<Arc<dyn Nearest>>);
+
+impl Nearest for First {
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut reach = *ray;
+        let mut first: Option<Hit> = None;
+        for part in &self.0 {
+            // What is farther than the nearest so far need not be found. Equal distances: the earlier part.
+            if let Some(hit) = part.nearest(&reach)
+                && first.is_none_or(|so_far| hit.distance < so_far.distance)
+            {
+                reach.length = hit.distance;
+                first = Some(hit);
+            }
+        }
+        first
+    }
 }

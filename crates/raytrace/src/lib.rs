@@ -2,8 +2,8 @@
 //!
 //! **Answers.** [`World`] is a scene made ready for rays. It answers [`light::Nearest`] (the first hit of a
 //! ray) and [`light::Occlude`] (what of the light along a segment arrives: 0 behind a solid face, 1 − opacity
-//! through each face with an alpha texture, [`through`] for a transparent body). [`Rays`] answers [`light::See`]
-//! with jittered rays through each pixel. [`BruteForce`] answers the first two without any hierarchy, slowly, in f64.
+//! through each face with an alpha texture, [`through`] for a transparent body). [`Rays`] answers [`light::See`] with jittered rays through each
+//! pixel. [`BruteForce`] answers the first two without any hierarchy, slowly, in f64.
 //!
 //! **Promises.** No ray passes between two triangles that share an edge or a corner, axis-parallel rays and
 //! grazing ones included. No ray that has left a surface by [`light::Place::leave`] meets that surface again.
@@ -46,6 +46,7 @@ mod rays;
 mod reference;
 mod shadow;
 mod shot;
+mod supersample;
 pub mod solid;
 pub mod surface;
 mod transmit;
@@ -57,6 +58,7 @@ mod world;
 pub use quality::Quality;
 pub use query::Met;
 pub use rays::Rays;
+pub use supersample::Supersample;
 pub use reference::BruteForce;
 pub use transmit::{Crossing, pane, through};
 pub use world::{Stats, World};

@@ -3,7 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use glam::DVec2;
-use light::{Hit, Piece, See, View};
+use light::{Known, Hit, Piece, See, View};
 
 use crate::{
     query::{First, Met, weights},
@@ -61,21 +61,6 @@ impl Rays {
         Self { world, view, samples: samples.max(1) }
     }
 
-    /// Where sample `index` of a pixel goes, on the screen.
-    fn position(&self, column: u32, row: u32, index: u32) -> DVec2 {
-        let corner = DVec2::new(column.into(), row.into());
-        if self.samples == 1 {
-            return corner + 0.5;
-        }
-        let root = f64::from(self.samples).sqrt() as u32;
-        let columns = (1..=root).rev().find(|d| self.samples.is_multiple_of(*d)).unwrap_or(1);
-        let rows = self.samples / columns;
-        let cell = DVec2::new((index % columns).into(), (index / columns).into());
-        let seed = scrambled(scrambled(scrambled(column) ^ row) ^ index);
-        let jitter = DVec2::new(unit(seed), unit(scrambled(seed ^ 0x9e37_79b9)));
-        corner + (cell + jitter) / DVec2::new(columns.into(), rows.into())
-    }
-
     /// Follows one sample from face to face.
     fn sample(&self, screen: DVec2, parts: &mut Vec<Part>) {
         let line = self.view.line(screen);
@@ -119,13 +104,13 @@ impl Rays {
 
     fn pixel(&self, column: u32, row: u32, parts: &mut Vec<Part>, pieces: &mut Vec<Piece>) {
         for index in 0..self.samples {
-            self.sample(self.position(column, row, index), parts);
+            self.sample(position(self.samples, column, row, index), parts);
         }
         for part in parts.drain(..) {
             let of = part.share.recip();
             let mut hit = self.hit(&part.met, part.weights * of, part.screen * of, part.depth * of, 1.0);
             hit.place.seed = scrambled(scrambled(column) ^ row);
-            pieces.push(Piece { column, share: part.share.min(1.0) as f32, hit });
+            pieces.push(Piece { column, share: part.share.min(1.0) as f32, hit, known: Known::default() });
         }
     }
 }
@@ -143,13 +128,28 @@ impl See for Rays {
     }
 }
 
+/// Where sample `index` of `samples` in a pixel goes, on the screen.
+pub(crate) fn position(samples: u32, column: u32, row: u32, index: u32) -> DVec2 {
+    let corner = DVec2::new(column.into(), row.into());
+    if samples == 1 {
+        return corner + 0.5;
+    }
+    let root = f64::from(samples).sqrt() as u32;
+    let columns = (1..=root).rev().find(|d| samples.is_multiple_of(*d)).unwrap_or(1);
+    let rows = samples / columns;
+    let cell = DVec2::new((index % columns).into(), (index / columns).into());
+    let seed = scrambled(scrambled(scrambled(column) ^ row) ^ index);
+    let jitter = DVec2::new(unit(seed), unit(scrambled(seed ^ 0x9e37_79b9)));
+    corner + (cell + jitter) / DVec2::new(columns.into(), rows.into())
+}
+
 /// A number in \[0, 1) from 32 bits.
 fn unit(bits: u32) -> f64 {
     f64::from(bits) / 4_294_967_296.0
 }
 
 /// A well-mixed permutation of 32 bits (PCG-RXS-M-XS: O'Neill 2014, as Jarzynski and Olano 2020 use it).
-fn scrambled(value: u32) -> u32 {
+pub(crate) fn scrambled(value: u32) -> u32 {
     let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (word >> 22) ^ word

@@ -5,16 +5,15 @@ use light::{Geometry, Luminaire, Spectrum};
 use scene::{LightSpectrum, Scene};
 use sky::{Description, Dome, Pattern, Sun, atmosphere};
 
-use crate::Error;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
 use crate::plan;
 
 /// Sun, sky and luminaires, in this order; what the scene lacks is left out.
-pub(super) fn sources(scene: &Scene, settings: &Settings) -> Result<Vec<Source>, Error> {
+pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
     let mut sources = Vec::new();
     sources.extend(sun(scene, settings));
-    sources.extend(sky(scene, settings)?);
+    sources.extend(sky(scene, settings));
     sources.extend(scene.lights.iter().map(|light| Source {
         name: light.name.clone(),
         light: Box::new(Luminaire {
@@ -25,7 +24,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Result<Vec<Source>,
         }),
         beam: true,
     }));
-    Ok(sources)
+    sources
 }
 
 /// A spectrum of luminance 1.
@@ -52,6 +51,11 @@ fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
     }
 }
 
+/// Whether any of the sun's disc is above the horizon.
+fn risen(sun: &scene::Sun) -> bool {
+    sun.altitude > -0.5 * sun.diameter
+}
+
 fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     let sun = scene.sun.as_ref()?;
     let light = Sun {
@@ -60,22 +64,27 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
         angular_diameter_deg: sun.diameter as f32,
         samples: settings.integer("sun.samples"),
     };
-    let risen = sun.altitude > -0.5 * sun.diameter;
-    (risen && !light.irradiance.is_zero()).then(|| Source { name: "sun".to_owned(), light: Box::new(light), beam: true })
+    (risen(sun) && !light.irradiance.is_zero()).then(|| Source {
+        name: "sun".to_owned(),
+        light: Box::new(light),
+        beam: true,
+    })
 }
 
-fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
+/// The skies that there are.
+pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
+    Pattern::ALL.into_iter().map(Pattern::name)
+}
+
+fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
     let model = plan::sky_model(scene, settings);
-    if model == "none" {
-        return Ok(None);
-    }
-    let pattern = Pattern::named(model).ok_or_else(|| {
-        let known: Vec<_> = Pattern::ALL.iter().map(|pattern| pattern.name()).collect();
-        Error::Usage(format!("[sky] model = \"{model}\": no such sky; there are: {}, none", known.join(", ")))
-    })?;
-    let sun = scene.sun.as_ref();
+    let pattern = Pattern::named(model)?;
+    // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
+    let sun = scene.sun.clone().or_else(|| scene.site.sun());
+    let sun = sun.as_ref();
     let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
-    let sun_horizontal = sun.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+    let shining = scene.sun.as_ref().filter(|sun| risen(sun));
+    let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
     let description = Description {
         illuminance: scene.sky.as_ref().and_then(|sky| sky.illuminance).map(|lux| lux as f32),
         sun_horizontal,
@@ -87,7 +96,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Result<Option<Source>, Error> {
         samples: settings.integer("sky.rays"),
         ..Description::new(pattern, toward_sun)
     };
-    Ok(Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)), beam: false }))
+    Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)), beam: false })
 }
 
 /// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground

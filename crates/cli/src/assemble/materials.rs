@@ -2,13 +2,18 @@
 
 use std::sync::Arc;
 
-use light::{Shade, Texture};
+use light::{Medium, Shade, Texture};
 use raytrace::surface::{Finish, Glass, Image, NO_MIRROR, NormalMap, Surface};
 use scene::{Material, UvTransform};
 
 /// The shader of a material: a surface, or where light passes it, that of a transparent body.
 pub(super) fn shade(material: &Material) -> Box<dyn Shade> {
-    match material.medium() {
+    shade_with(material, material.medium())
+}
+
+/// The same, filled with `medium` whatever the material itself says.
+pub(super) fn shade_with(material: &Material, medium: Option<Medium>) -> Box<dyn Shade> {
+    match medium {
         Some(medium) => Box::new(Glass::new(finish(material), medium)),
         None => Box::new(Surface::new(finish(material))),
     }

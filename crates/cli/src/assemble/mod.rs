@@ -2,13 +2,13 @@
 
 mod lights;
 mod materials;
-
-pub(crate) use materials::mirrors;
+mod solids;
 
 use std::sync::Arc;
 
-use light::{Geometry, Nearest, Occlude, Product, See, View};
-use raytrace::{BruteForce, Quality, Rays, World};
+use light::{First, Nearest, Occlude, Product, See, Shade, View};
+use raytrace::solid::{Acceleration, Solids};
+use raytrace::{BruteForce, Quality, Rays, Supersample, World};
 use scanline::{Knobs, Rule, Scanline, Shading};
 use scene::{Camera, Scene};
 
@@ -16,38 +16,30 @@ use crate::Error;
 use crate::pipeline::{Limits, Pipeline};
 use crate::plan::Plan;
 
+pub(crate) use lights::skies;
+pub(crate) use materials::mirrors;
+
 /// Builds the stages that `plan` names for `scene`.
 ///
 /// # Errors
-/// Usage errors for what the plan could not check: a model of the sky that does not exist.
+/// What only building can find: a solid that cannot be.
 pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
     let settings = &plan.settings;
-    let geometry = Arc::clone(&scene.geometry);
     let view = view(plan, scene)?;
-    let sources = lights::sources(scene, settings)?;
-    let rays = Stages::of(&geometry, plan);
-    let see: Box<dyn See> = match (settings.choice("visibility"), &rays) {
-        ("rays", Stages::Bvh(world)) => {
-            Box::new(Rays::new(Arc::clone(world), view, settings.integer("samples")))
-        }
-        ("rays", Stages::Every(_)) => {
-            return Err(Error::Usage(
-                "visibility = rays needs accelerate = bvh (every face in turn is for shadows and mirrors only)".to_owned(),
-            ));
-        }
-        _ => Box::new(Scanline::new(Arc::clone(&geometry), view, knobs(plan))),
-    };
-    let occlude = match settings.choice("shadows") {
-        "off" => Vec::new(),
-        _ => vec![rays.occlude()],
-    };
+    let (solids, mut more) = solids::bodies(scene)?.map_or((None, Vec::new()), |(s, m)| (Some(s), m));
+    let traced = Traced::of(scene, plan, solids);
+    let mut shade: Vec<Box<dyn Shade>> = scene.materials.iter().map(materials::shade).collect();
+    shade.append(&mut more);
     Ok(Pipeline {
         view,
-        see,
-        nearest: rays.nearest(),
-        shade: scene.materials.iter().map(materials::shade).collect(),
-        sources,
-        occlude: Box::new(Product(occlude)),
+        see: see(plan, scene, view, &traced),
+        nearest: traced.nearest(),
+        shade,
+        sources: lights::sources(scene, settings),
+        occlude: Box::new(Product(match settings.choice("shadows") {
+            "off" => Vec::new(),
+            _ => traced.occlude(),
+        })),
         limits: Limits {
             depth: settings.integer("ray-depth") as u8,
             share: settings.number("ray-share") as f32,
@@ -55,39 +47,75 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
     })
 }
 
-/// Who answers rays.
-enum Stages {
+/// Who finds what the eye sees.
+fn see(plan: &Plan, scene: &Scene, view: View, traced: &Traced) -> Box<dyn See> {
+    let settings = &plan.settings;
+    let samples = settings.integer("samples");
+    let per_face = settings.choice("shading") == "pixel";
+    match (settings.choice("visibility"), &traced.eye) {
+        // Faces met by several samples of a pixel are shaded once: for triangles alone.
+        ("rays", Triangles::Bvh(world)) if per_face && traced.solids.is_none() => {
+            Box::new(Rays::new(Arc::clone(world), view, samples))
+        }
+        ("rays", _) => Box::new(Supersample::new(traced.nearest(), view, samples)),
+        _ => Box::new(Scanline::new(Arc::clone(&scene.geometry), view, knobs(plan))),
+    }
+}
+
+/// Who answers rays: the eye's and mirrors' (`nearest`), and those that ask for shadows (`occlude`).
+struct Traced {
+    eye: Triangles,
+    shadow: Triangles,
+    solids: Option<[Arc<Solids>; 2]>,
+}
+
+/// Triangles in a hierarchy, or one after the other.
+#[derive(Clone)]
+enum Triangles {
     Bvh(Arc<World>),
     Every(Arc<BruteForce>),
 }
 
-impl Stages {
-    fn of(geometry: &Arc<Geometry>, plan: &Plan) -> Self {
-        match plan.settings.choice("accelerate") {
-            "none" => Self::Every(Arc::new(BruteForce::new(Arc::clone(geometry)))),
+impl Traced {
+    /// `accelerate` = none | view | bvh: the cases I and II, III and IV of the thesis' table 2.1.
+    fn of(scene: &Scene, plan: &Plan, solids: Option<Solids>) -> Self {
+        let every = || Triangles::Every(Arc::new(BruteForce::new(Arc::clone(&scene.geometry))));
+        let quality = match plan.settings.choice("bvh-quality") {
+            "fast" => Quality::Fast,
+            "best" => Quality::Best,
+            _ => Quality::Medium,
+        };
+        let bvh = || Triangles::Bvh(Arc::new(World::build(Arc::clone(&scene.geometry), quality)));
+        let (eye, shadow, boxes) = match plan.settings.choice("accelerate") {
+            "none" => (every(), every(), [Acceleration::None; 2]),
+            "view" => (bvh(), every(), [Acceleration::Boxes, Acceleration::None]),
             _ => {
-                let quality = match plan.settings.choice("bvh-quality") {
-                    "fast" => Quality::Fast,
-                    "best" => Quality::Best,
-                    _ => Quality::Medium,
-                };
-                Self::Bvh(Arc::new(World::build(Arc::clone(geometry), quality)))
+                let both = bvh();
+                (both.clone(), both, [Acceleration::Boxes; 2])
             }
-        }
-    }
-
-    fn occlude(&self) -> Box<dyn Occlude> {
-        match self {
-            Self::Bvh(world) => Box::new(Arc::clone(world)),
-            Self::Every(every) => Box::new(Arc::clone(every)),
-        }
+        };
+        let solids = solids.map(|solids| boxes.map(|boxes| Arc::new(solids.clone().with(boxes))));
+        Self { eye, shadow, solids }
     }
 
     fn nearest(&self) -> Arc<dyn Nearest> {
-        match self {
-            Self::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
-            Self::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
+        let triangles: Arc<dyn Nearest> = match &self.eye {
+            Triangles::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
+            Triangles::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
+        };
+        match &self.solids {
+            Some([solids, _]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
+            None => triangles,
         }
+    }
+
+    fn occlude(&self) -> Vec<Box<dyn Occlude>> {
+        let triangles: Box<dyn Occlude> = match &self.shadow {
+            Triangles::Bvh(world) => Box::new(Arc::clone(world)),
+            Triangles::Every(every) => Box::new(Arc::clone(every)),
+        };
+        let solids = self.solids.iter().map(|[_, solids]| Box::new(Arc::clone(solids)) as Box<dyn Occlude>);
+        std::iter::once(triangles).chain(solids).collect()
     }
 }
 
@@ -97,7 +125,8 @@ fn knobs(plan: &Plan) -> Knobs {
         sub_scanlines: settings.integer("sub-scanlines"),
         rule: match settings.choice("scan-rule") {
             "trapezoid" => Rule::Trapezoid,
-            _ => Rule::Midpoint,
+            "midpoint" => Rule::Midpoint,
+            _ => Rule::Exact,
         },
         shading: match settings.choice("shading") {
             "span" => Shading::PerSpan,

@@ -24,6 +24,10 @@ pub struct Header {
     /// All that made the picture, as JSON, in one attribute named `keikan`: the encoder writes several in no
     /// fixed order, and the same picture must be the same file.
     pub made_by: String,
+    /// Column and row of the picture's first pixel in the whole picture, of which it may be a region.
+    pub corner: [u32; 2],
+    /// Columns and rows of the whole picture.
+    pub whole: [u32; 2],
 }
 
 /// The bytes of an EXR with `R G B` and `Y` of the first picture, and `name.R …` of the others.
@@ -49,6 +53,8 @@ pub fn encode(pictures: &[Picture], header: &Header) -> std::result::Result<Vec<
     };
     let layer = Layer::new(size, attributes(header), encoding, AnyChannels::sort(channels));
     let mut image = Image::from_layer(layer);
+    image.attributes.display_window =
+        IntegerBounds::from_dimensions(Vec2(header.whole[0] as usize, header.whole[1] as usize));
     image.attributes.chromaticities = Some(attribute::Chromaticities {
         red: Vec2(0.64, 0.33),
         green: Vec2(0.30, 0.60),
@@ -65,6 +71,7 @@ fn attributes(header: &Header) -> LayerAttributes {
     let mut attributes = LayerAttributes {
         // Pixels are cd/m²: RGB (1, 1, 1) is a white of 1 cd/m².
         white_luminance: Some(1.0),
+        layer_position: Vec2(header.corner[0] as i32, header.corner[1] as i32),
         latitude: Some(header.latitude),
         longitude: Some(header.longitude),
         utc_offset: Some(header.utc_offset),

@@ -57,7 +57,8 @@ impl Scale {
 fn percentiles(luminance: &[f32]) -> (f32, f32) {
     let mut sorted: Vec<f32> = luminance.iter().copied().filter(|l| l.is_finite()).collect();
     sorted.sort_unstable_by(f32::total_cmp);
-    let at = |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64) as usize).copied().unwrap_or(0.0);
+    let at =
+        |share: f64| sorted.get((share * (sorted.len().max(1) - 1) as f64) as usize).copied().unwrap_or(0.0);
     let (low, high) = (at(0.01).max(0.0), at(0.99));
     if high > low { (low, high) } else { (0.0, high.max(1.0)) }
 }
@@ -80,7 +81,8 @@ pub fn draw(picture: &Picture, scale: &Scale) -> Result<Vec<u8>, String> {
     for y in 0..height {
         for x in 0..picture.width {
             let own = step(x, y);
-            let crossed = (x + 1 < picture.width && step(x + 1, y) != own) || (y + 1 < height && step(x, y + 1) != own);
+            let crossed =
+                (x + 1 < picture.width && step(x + 1, y) != own) || (y + 1 < height && step(x, y + 1) != own);
             let colour = palette(scale.share(picture.luminance[y * picture.width + x]));
             canvas[y * width + x] = if crossed { colour.map(|c| c / 3) } else { colour };
         }

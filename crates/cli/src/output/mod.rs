@@ -10,4 +10,4 @@ pub use develop::{Picture, develop};
 pub use exr_file::{Header, encode as encode_exr};
 pub use false_colour::{Scale, draw as draw_false_colour};
 pub use png_file::{Exposure, encode as encode_png};
-pub use whole::write;
+pub use whole::{Target, write};

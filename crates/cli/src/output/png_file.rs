@@ -39,7 +39,8 @@ impl Exposure {
 }
 
 fn log_average(luminance: &[f32]) -> f32 {
-    let mut logs: Vec<f32> = luminance.iter().filter(|l| **l > 0.0 && l.is_finite()).map(|l| l.ln()).collect();
+    let mut logs: Vec<f32> =
+        luminance.iter().filter(|l| **l > 0.0 && l.is_finite()).map(|l| l.ln()).collect();
     if logs.is_empty() {
         return 1.0;
     }
