@@ -185,3 +185,28 @@ fn light_through_glass_is_coloured_and_less() {
         assert!(solids.transmittance(&segment).max() <= 1.0);
     }
 }
+
+#[test]
+fn nothing_and_nonsense_are_met_by_nothing() {
+    let none = Solids::new(Vec::new(), 0).expect("no bodies");
+    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    let mut stretches = Vec::new();
+    assert!(none.is_empty() && none.hulls().is_empty() && none.nearest(&ray).is_none());
+    assert_eq!(none.transmittance(&ray), Spectrum::ONE);
+    assert!(none.shadows(&PointSource::Toward(DVec3::Y), DVec3::ZERO, DVec3::X, &mut stretches));
+    // Bodies without points, and lines that are none.
+    let empty =
+        Node::Intersection(vec![at(Shape::Sphere, 1.0, DVec3::ZERO), at(Shape::Cone, 1.0, DVec3::X * 9.0)]);
+    let mut bodies = garden();
+    let full = Solids::new(bodies.clone(), 0).expect("a garden");
+    bodies.push(Body { node: empty, medium: None });
+    let more = Solids::new(bodies, 0).expect("a garden and nothing");
+    assert_eq!(more.hulls(), full.hulls());
+    for direction in [Vec3::ZERO, Vec3::NAN, Vec3::new(f32::INFINITY, 0.0, 0.0)] {
+        for solids in [more.clone(), more.clone().with(Acceleration::None)] {
+            assert!(solids.nearest(&Ray::new(Vec3::ONE, direction)).is_none());
+            assert_eq!(solids.transmittance(&Ray::new(Vec3::ONE, direction)), Spectrum::ONE);
+        }
+    }
+    assert_eq!(more.meet(99, (DVec3::ZERO, DVec3::X), 0.0), None);
+}
