@@ -10,6 +10,7 @@ mod inline;
 mod lamps;
 mod materials;
 mod models;
+mod names;
 mod placement;
 mod punctual;
 mod recentre;

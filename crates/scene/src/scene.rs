@@ -21,15 +21,15 @@ pub struct Scene {
     pub solids: Vec<Solid>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
-    /// Lamps.
+    /// Lamps; their names differ, and none is `sun`, `sky` or `emission`.
     pub lights: Vec<Light>,
     /// The sun, also while it is below the horizon; none = switched off, or neither placed nor timed.
     pub sun: Option<Sun>,
     /// What lights the scene from all around, if anything.
     pub sky: Option<Sky>,
-    /// At least one.
+    /// At least one; their names differ.
     pub cameras: Vec<Camera>,
-    /// Where lux are asked for.
+    /// Where lux are asked for; their names differ.
     pub sensors: Vec<Sensor>,
     /// Stage names and knobs, as given: `"visibility"` → `"rays"`, `"sub-scanlines"` → `"8"`.
     pub settings: BTreeMap<String, String>,

@@ -185,6 +185,19 @@ fn sensors_count_in_the_stated_order() {
 }
 
 #[test]
+fn names_that_are_taken_get_a_number_and_a_warning() {
+    let scene = scene(
+        "[[camera]]\nname = 'a'\nposition = [0, 1, 5]\ntarget = [0, 0, 0]\n\
+         [[camera]]\nname = 'a'\nposition = [0, 1, 6]\ntarget = [0, 0, 0]\n\
+         [[light]]\nname = 'sky'\nposition = [0, 1, 5]\nintensity = 1\n\
+         [[sensor]]\nname = 'desk'\npoints = [[0, 0, 0]]\n[[sensor]]\nname = 'desk'\npoints = [[1, 0, 0]]\n",
+    );
+    assert_eq!((scene.cameras[0].name.as_str(), scene.cameras[1].name.as_str()), ("a", "a 2"));
+    assert_eq!((scene.lights[0].name.as_str(), scene.sensors[1].name.as_str()), ("sky 2", "desk 2"));
+    assert_eq!(scene.warnings.iter().filter(|w| w.what.contains("got a number")).count(), 3);
+}
+
+#[test]
 fn settings_become_texts() {
     let scene = scene(
         "[settings]\nvisibility = 'rays'\nsub-scanlines = 8\nsky.visibility = 'bands'\nexact = true\nx = 0.5\n[sky]\nmodel = 'cie-4'\nturbidity = 3\n",
@@ -374,6 +387,10 @@ fn models_are_shared_placed_and_changed() {
         scene.materials[mesh.material as usize].base_colour
     };
     assert_eq!((colour(0), colour(2)), (Vec3::new(0.2, 0.1, 0.05), Vec3::ONE));
+    assert_eq!(
+        scene.lights.iter().map(|l| l.name.as_str()).collect::<Vec<_>>(),
+        ["spot", "spot 2", "spot 3"]
+    );
     // Three spots, the second raised to twice its height; the first sun counts, the others are reported.
     assert_eq!(scene.lights.iter().map(|l| l.position.y).collect::<Vec<_>>(), [2.0, 4.0, 2.0]);
     assert_eq!(scene.sun.as_ref().and_then(|sun| sun.illuminance), Some(90_000.0));

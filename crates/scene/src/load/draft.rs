@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use light::{Geometry, Instance, Mesh};
 
+use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
 use crate::{Camera, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
 
@@ -79,6 +80,7 @@ impl Draft {
         if self.cameras.is_empty() {
             self.cameras.push(framing::frame(&self.geometry, &self.solids));
         }
+        self.name_apart(name);
         let others: Vec<DVec3> = self
             .lights
             .iter()
@@ -113,6 +115,16 @@ impl Draft {
             settings: self.settings,
             warnings: self.warnings,
         }
+    }
+
+    /// Makes the names of cameras, lights and sensors differ.
+    fn name_apart(&mut self, place: &str) {
+        let cameras = self.cameras.iter_mut().map(|camera| &mut camera.name);
+        let lights = self.lights.iter_mut().map(|light| &mut light.name);
+        let sensors = self.sensors.iter_mut().map(|sensor| &mut sensor.name);
+        self.warnings.extend(make_unique(cameras, &[], ("cameras", place)));
+        self.warnings.extend(make_unique(lights, &LAYERS, ("lights", place)));
+        self.warnings.extend(make_unique(sensors, &[], ("sensors", place)));
     }
 
     /// Tells every mesh what its body is filled with.
