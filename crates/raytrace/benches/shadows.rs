@@ -1,9 +1,10 @@
 //! What a segment costs that is cut into shadow intervals, in shadow rays of the same place.
 //!
-//! `cargo bench -p keikan-raytrace --bench shadows`. Three scenes under a sun and a lamp: *prisms*, 24 prisms on a floor
-//! (some 600 triangles), *columns*, a hall of 100 columns (20 k triangles), and *terrain*, a million triangles. The
-//! segments lie on what vertical rays from above meet, 4 cm to 1 m long (a pixel to a whole span); the rays go
-//! from the middles of the same segments. One thread; the median of five passes.
+//! `cargo bench -p keikan-raytrace --bench shadows`. Three scenes under a sun and a lamp: *prisms*, 24 prisms on
+//! a floor (some 500 triangles), *columns*, a hall of 100 columns (20 k triangles), and *terrain*, a million
+//! triangles. The segments lie on what vertical rays from above meet, 4 cm to 1 m long (a pixel to a whole span)
+//! or a quarter of the scene; the rays go from the middles of the same segments. One thread; the median of five
+//! passes.
 
 use std::{f64::consts::TAU, hint::black_box, sync::Arc, time::Instant};
 

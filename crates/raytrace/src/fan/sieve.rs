@@ -58,7 +58,8 @@ impl Half {
         self.value([plane(0), plane(1), plane(2)])
     }
 
-    /// Its values at the corners of eight triangles. No closure over lanes: it would be compiled without AVX2.
+    /// Its values at the corners of eight triangles. No closure over lanes: it would be compiled without
+    /// AVX2.
     #[inline(always)]
     fn corners<L: Lanes>(&self, packet: &Packet) -> (L, L, L) {
         let [a, b, c] = &packet.corners;
