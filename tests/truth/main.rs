@@ -2,7 +2,9 @@
 
 mod agreement;
 mod cie171;
+mod cie171_glass;
 mod determinism;
 mod furnace;
 mod luminaires;
+mod night;
 mod photometry;
