@@ -135,7 +135,8 @@ fn end_of(span: &Segment, leans: &[Lean], end: usize, width: f64) -> Made {
     } else if end == 1 && lean.x[1] >= width && span.x1 >= width {
         Made::upright(f64::INFINITY)
     } else if own(span, lean, end, width) {
-        let slope = lean.edges[end];
+        // Finite, so that no product of it is a NaN.
+        let slope = lean.edges[end].clamp(-1e30, 1e30);
         let (x, yields) = (lean.x[end], slope.abs());
         Made { x, slope: f64::from(slope), yields, reach: lean.reach[end], height: lean.heights[end], end }
     } else {
@@ -173,3 +174,43 @@ const INNER: f32 = 1e9;
 /// of terrain whose faces are from 0.1 to 10 pixels wide: less makes smooth outlines worse, more makes rough
 /// ones worse than by the midpoint rule.
 const ON: f32 = 16.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const WIDTH: f64 = 64.0;
+
+    proptest! {
+        /// However wildly they lean: no span has a negative width at the top or the bottom, and spans that touch have
+        /// one border between them.
+        #[test]
+        fn borders_are_in_order(
+            numbers in prop::collection::vec((0f64..4.0, 0f64..4.0, -1e3f32..1e3, -1e3f32..1e3, 0f64..2.0), 1..30),
+            touch in prop::bool::ANY,
+        ) {
+            let (mut visible, mut leans, mut x) = (Vec::new(), Vec::new(), 0.0);
+            for (i, &(gap, length, left, right, w)) in (0u32..).zip(&numbers) {
+                let x0 = if touch { x } else { x + gap };
+                x = x0 + length;
+                if x0 < x && x < WIDTH {
+                    visible.push(Segment { x0, x1: x, w, slope: 0.0, error: 0.3, face: i, lean: leans.len() as u32 });
+                    let (reach, heights) = ([[0.1, 1.0], [1.0, 0.0]], [1.1, 1.0]);
+                    leans.push(Lean { x: [x0, x], edges: [left, right], fall: 0.0, reach, heights });
+                }
+            }
+            let mut sides = Vec::new();
+            Borders::default().find(&visible, &leans, 0.25, WIDTH, &mut sides);
+            prop_assert_eq!(sides.len(), visible.len());
+            for side in &sides {
+                prop_assert!(side.left[0] <= side.right[0] && side.left[1] <= side.right[1]);
+            }
+            for (spans, sides) in visible.windows(2).zip(sides.windows(2)) {
+                let (a, b) = (sides[0].right, sides[1].left);
+                prop_assert!(a[0] <= b[0] && a[1] <= b[1]);
+                prop_assert!(spans[0].x1 < spans[1].x0 || a == b);
+            }
+        }
+    }
+}

@@ -15,6 +15,9 @@ const REACH: f32 = 0.02;
 /// Events kept of one task's faces, for each row: more than any budget has lines for.
 const KEPT: usize = 2;
 
+/// Events nearer to each other than this are one \[row\]: what lies between them is wrong by so much at most.
+const SAME: f64 = 1.0 / (1u64 << 20) as f64;
+
 /// Lines beyond those asked for, as a share of them: what events may cost. Twice as many made pictures of terrain
 /// of 10⁵ and 10⁶ faces a tenth slower.
 const EXTRA: f64 = 0.125;
@@ -96,7 +99,7 @@ impl Slabs {
     /// For events in any order; `strips` for each of `rows` if there are none.
     pub(crate) fn new(rows: u32, strips: u32, mut events: Vec<Event>) -> Self {
         events.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(b.reach.total_cmp(&a.reach)));
-        events.dedup_by(|next, kept| next.y == kept.y);
+        events.dedup_by(|next, kept| next.y - kept.y <= SAME);
         let of_row = |row: u32| {
             let from = events.partition_point(|event| event.y <= f64::from(row));
             let to = events.partition_point(|event| event.y < f64::from(row + 1));
@@ -168,4 +171,42 @@ fn halve_highest(cuts: &mut Vec<f64>, end: f64) {
     }
     let middle = 0.5 * (cuts[highest] + below(highest));
     cuts.insert(highest + 1, middle);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn strips_rise_fill_the_rows_and_keep_to_the_budget(
+            ys in prop::collection::vec(0f64..7.0, 0..60),
+            strips in 1u32..9,
+        ) {
+            let events = ys.iter().map(|&y| Event { y, reach: 1.0 }).collect();
+            let slabs = Slabs::new(7, strips, events);
+            let budget = 7.0 * f64::from(strips) * (1.0 + EXTRA) + MOST as f64;
+            prop_assert!(f64::from(slabs.lines()) <= budget);
+            for row in 0..7 {
+                let lines = slabs.of_row(row);
+                prop_assert!(lines.len() >= strips as usize);
+                prop_assert_eq!(slabs.strip(lines.start).0, f64::from(row));
+                prop_assert_eq!(slabs.strip(lines.end - 1).1, f64::from(row + 1));
+                for line in lines {
+                    let (top, bottom) = slabs.strip(line);
+                    prop_assert!(top < bottom);
+                    prop_assert_eq!(slabs.row_of(line), row);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn few_events_are_cut_at() {
+        let events = vec![Event { y: 1.3, reach: 1.0 }, Event { y: 1.8, reach: 1.0 }];
+        let slabs = Slabs::new(2, 2, events);
+        let tops: Vec<f64> = (0..slabs.lines()).map(|line| slabs.strip(line).0).collect();
+        assert_eq!(tops, [0.0, 0.5, 1.0, 1.3, 1.8]);
+    }
 }
