@@ -29,7 +29,8 @@ impl Site {
     ///
     /// NREL's Solar Position Algorithm (Reda and Andreas 2004, ±0.0003°), seen from the place itself
     /// (parallax) at its height. Altitude is *apparent*: refraction by Sæmundsson's formula as SPA has it,
-    /// with pressure and temperature of the standard atmosphere at the elevation; below −0.833° none.
+    /// with pressure and temperature of the standard atmosphere at the elevation. Below −0.833°, where SPA
+    /// ends it at a stroke, it fades to nothing over 3°: twilight has no step.
     /// UTC is taken for UT1 (< 0.9 s apart: < 0.004°); ΔT by Espenak and Meeus' polynomials as continued
     /// in the library. May be below the horizon.
     ///
@@ -39,8 +40,13 @@ impl Site {
     /// assert!((sun.altitude - 64.7).abs() < 0.05 && (sun.azimuth - 111.8).abs() < 0.05);
     /// ```
     pub fn sun(&self) -> Option<Sun> {
-        let refraction = standard_air(self.elevation)?;
-        let (altitude, azimuth) = self.solar_angles(Some(refraction))?;
+        let air = standard_air(self.elevation)?;
+        let (straight, azimuth) = self.solar_angles(None)?;
+        let altitude = if straight < SET {
+            straight + refraction(SET, &air) * (1.0 - (SET - straight) / FADE).max(0.0)
+        } else {
+            self.solar_angles(Some(air))?.0
+        };
         let toward = self.direction(altitude, azimuth);
         Some(Sun { toward, altitude, azimuth, illuminance: None, spectrum: None, diameter: SUN_DIAMETER })
     }
@@ -82,6 +88,18 @@ impl Site {
         let azimuth = direction.x.atan2(-direction.z).to_degrees() - self.north;
         (altitude, azimuth.rem_euclid(360.0))
     }
+}
+
+/// True altitude of the sun's centre at which SPA takes its disc for set and refraction for nothing, degrees.
+const SET: f64 = -0.833_67;
+
+/// Degrees below that over which refraction fades: slowly enough that the sun still sinks.
+const FADE: f64 = 3.0;
+
+/// Refraction at true altitude `h`, degrees: Sæmundsson's formula as SPA has it (Reda and Andreas 2004, eq. 42).
+fn refraction(h: f64, air: &RefractionCorrection) -> f64 {
+    let standard = 1.02 / (60.0 * (h + 10.3 / (h + 5.11)).to_radians().tan());
+    standard * (air.pressure() / 1010.0) * (283.0 / (273.0 + air.temperature()))
 }
 
 /// Pressure and temperature of the standard atmosphere (ISO 2533) at `height` metres above the sea; they

@@ -149,3 +149,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_apparent_sun_sets_without_a_step() {
+    // 21 March at 35° N: the sun sinks by 0.82° × 15°/h = 0.2° a minute, apparently by 5/6 of that at least
+    // while refraction grows, and by 0.2° · (1 + 0.62/3) while it fades.
+    let at = |second: i64| {
+        let time = jiff::Timestamp::constant(1_774_080_000 + second, 0); // 08:00 UTC
+        Site { latitude: 35.0, longitude: 139.0, time, ..Site::default() }.sun().unwrap().altitude
+    };
+    let mut before = at(0);
+    for minute in 1..120 {
+        let now = at(60 * minute);
+        assert!((0.1..0.26).contains(&(before - now)), "minute {minute}: {before}° then {now}°");
+        before = now;
+    }
+    assert!(before < -8.0, "{before}");
+}
