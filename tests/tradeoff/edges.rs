@@ -9,7 +9,7 @@ const PARK: &str = include_str!("../../crates/cli/scenes/park.toml");
 const SIZE: (u32, u32) = (320, 200);
 
 /// Light without shadows, so that the only edges are those of what is seen.
-const LIGHT: [(&str, &str); 3] = [("shadows", "off"), ("sky.model", "uniform"), ("sun.samples", "1")];
+const LIGHT: [(&str, &str); 3] = [("shadows", "off"), ("sky.model", "none"), ("sun.samples", "1")];
 
 struct Run {
     name: String,
@@ -62,7 +62,7 @@ pub(crate) fn table() {
     let edges = edges();
     let reference = run("rays 4096".to_owned(), &[("visibility", "rays"), ("samples", "4096")]);
     let mut runs = Vec::new();
-    for rule in ["midpoint", "trapezoid"] {
+    for rule in ["exact", "midpoint", "trapezoid"] {
         for n in ["1", "2", "4", "8"] {
             runs.push(run(format!("scanline {n} {rule}"), &[("sub-scanlines", n), ("scan-rule", rule)]));
         }

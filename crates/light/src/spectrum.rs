@@ -28,7 +28,7 @@ impl Spectrum {
         Self(self.0.map(f))
     }
 
-    /// exp(−self · length): what Lambert-Beer leaves after `length` [m] when `self` is a coefficient [1/m].
+    /// exp(−self · length): what Lambert-Beer leaves after `length` \[m\] when `self` is a coefficient \[1/m\].
     pub fn attenuate(self, length: f32) -> Self {
         self.map(|coefficient| (-coefficient * length).exp())
     }
