@@ -57,6 +57,19 @@ const XYZ_FROM_SRGB: Mat3 = Mat3::from_cols(
     Vec3::new(0.180_480_8, 0.072_192_32, 0.950_532_14),
 );
 
+/// Luminance of linear sRGB: Y of red, green and blue whose white has Y = 1.
+///
+/// The middle row of linear sRGB → XYZ as multiples of 2⁻²⁴, so that the three sum to exactly 1.
+///
+/// ```
+/// use keikan_light::colour::{LUMINANCE, xyz_from_srgb};
+/// assert_eq!(LUMINANCE.element_sum(), 1.0);
+/// for rgb in glam::Vec3::AXES {
+///     assert!((LUMINANCE.dot(rgb) - xyz_from_srgb(rgb).y).abs() <= f32::EPSILON); // rounded to 2⁻²⁴ twice
+/// }
+/// ```
+pub const LUMINANCE: Vec3 = Vec3::new(0.212_639_03, 0.715_168_65, 0.072_192_31);
+
 impl Spectrum {
     /// Tristimulus values (CIE 1931, 2°), Y in cd/m² for a radiance, lx for an irradiance.
     ///

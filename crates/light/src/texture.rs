@@ -35,16 +35,37 @@ impl Texture {
     /// From linear RGB and alpha, each within \[0, 1\], rows from v = 0 downwards (glTF's order);
     /// `texels.len()` must be `width · height`, both ≥ 1. None if not.
     pub fn new(width: u32, height: u32, texels: &[[f32; 4]], wrap: [Wrap; 2]) -> Option<Self> {
-        let count = (width as usize).checked_mul(height as usize)?;
-        if count == 0 || texels.len() != count {
+        let (columns, count) = (width as usize, (width as usize).checked_mul(height as usize)?);
+        if texels.len() != count {
             return None;
         }
-        let quantise = |t: &[f32; 4]| {
-            let share = |value: f32| (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
-            [share(t[0] * t[3]), share(t[1] * t[3]), share(t[2] * t[3]), share(t[3])]
-        };
-        let base = Level { width, height, texels: texels.iter().map(quantise).collect() };
-        let mut levels = vec![base];
+        Self::from_rows(width, height, wrap, |y, row| {
+            row.copy_from_slice(&texels[y as usize * columns..][..columns]);
+        })
+    }
+
+    /// The same without a copy of the whole image: `fill` is given every row once, from y = 0 on, as `width` texels
+    /// of zeros or of the row before, to be overwritten; it is dropped, with what it holds, before the pyramid is built.
+    ///
+    /// None if `width` or `height` is 0. The texture has 8 bytes a texel, 10⅔ with its pyramid.
+    pub fn from_rows(
+        width: u32,
+        height: u32,
+        wrap: [Wrap; 2],
+        mut fill: impl FnMut(u32, &mut [[f32; 4]]),
+    ) -> Option<Self> {
+        let count = (width as usize).checked_mul(height as usize)?;
+        if count == 0 {
+            return None;
+        }
+        let mut row = vec![[0.0; 4]; width as usize];
+        let mut texels = Vec::with_capacity(count);
+        for y in 0..height {
+            fill(y, &mut row);
+            texels.extend(row.iter().map(quantise));
+        }
+        drop(fill);
+        let mut levels = vec![Level { width, height, texels }];
         while levels.last().is_some_and(|level| level.width > 1 || level.height > 1) {
             levels.push(levels[levels.len() - 1].halved());
         }
@@ -84,6 +105,12 @@ impl Texture {
         let far = self.levels[fine + 1].bilinear(uv, self.wrap);
         std::array::from_fn(|i| near[i] + share * (far[i] - near[i]))
     }
+}
+
+/// Linear RGB and alpha to premultiplied shares of 65535.
+fn quantise(t: &[f32; 4]) -> [u16; 4] {
+    let share = |value: f32| (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
+    [share(t[0] * t[3]), share(t[1] * t[3]), share(t[2] * t[3]), share(t[3])]
 }
 
 impl Level {

@@ -118,8 +118,8 @@ fn encoded<'d>(document: &'d Document<'_>, index: usize) -> Checked<Cow<'d, [u8]
     let image = item(&document.root.images, index, "images", &place)?;
     match (&image.uri, image.buffer_view) {
         (Some(uri), None) => {
-            // No sound PNG is larger than its texels at 16 bits.
-            let limit = 8 * image_file::MAX_TEXELS;
+            // No sound PNG is much larger than its texels at 16 bits.
+            let limit = 9 * image_file::MAX_IMAGE;
             Ok(Cow::Owned(resource::fetch(uri, document.folder, &format!("{place}/uri"), limit)?))
         }
         (None, Some(view)) => {

@@ -1,6 +1,7 @@
 //! Checks of single values; each failure names its place and what was possible.
 
 use glam::{DVec3, Vec3};
+use light::colour::decode_srgb;
 
 use crate::document::Spot;
 use crate::file::Colour;
@@ -152,13 +153,8 @@ fn hex(text: &str) -> Option<Vec3> {
     let digits =
         text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let code = u32::from_str_radix(digits, 16).ok()?;
-    let channel = |shift: u32| linear(f64::from(code >> shift & 255) / 255.0) as f32;
+    let channel = |shift: u32| decode_srgb((code >> shift & 255) as f32 / 255.0);
     Some(Vec3::new(channel(16), channel(8), channel(0)))
-}
-
-/// The sRGB transfer function, IEC 61966-2-1.
-fn linear(encoded: f64) -> f64 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

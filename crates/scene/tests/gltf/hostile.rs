@@ -191,6 +191,12 @@ fn vertices_must_be_finite_and_indices_in_range() {
     assert!(file.read().unwrap_err().contains("names vertex 3, but there are 3"));
 }
 
+/// The check sum of PNG (ISO 3309), bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |sum: u32, _| if sum & 1 == 1 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
+    !bytes.iter().fold(!0, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), step))
+}
+
 #[test]
 fn a_small_file_cannot_ask_for_much() {
     // 4 thousand million zeros, which need no bytes in the file.
@@ -205,13 +211,22 @@ fn a_small_file_cannot_ask_for_much() {
     let node = json!({ "mesh": 0, "extensions": { "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": many } } } });
     file.json["nodes"] = json!(vec![node; 1000]);
     assert!(file.read().unwrap_err().contains("out of all proportion"));
-    // A picture of 16384² that is 268 million times the same dot, ten times over, in a few bytes of header.
-    let mut file = everything();
-    let mut png = crate::builder::png(1, 1, &[0; 4]);
-    png[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
-    let view = file.view(&png);
-    file.json["images"][0]["bufferView"] = json!(view);
-    assert!(file.read().is_err());
+    // Pictures that are hundreds of millions of times the same dot, in a few bytes.
+    for (side, what) in
+        [(65_536u32, "a side of 1 to 16384 texels is allowed"), (16_384, "67108864 are allowed in one image")]
+    {
+        let mut file = everything();
+        let mut png = crate::builder::png(1, 1, &[0; 4]);
+        png[16..20].copy_from_slice(&side.to_be_bytes());
+        png[20..24].copy_from_slice(&side.to_be_bytes());
+        // The check sum of the header, over its name and content.
+        let sum = crc(&png[12..29]).to_be_bytes();
+        png[29..33].copy_from_slice(&sum);
+        let view = file.view(&png);
+        file.json["images"][0]["bufferView"] = json!(view);
+        let error = file.read().unwrap_err();
+        assert!(error.starts_with("test.glb: /images/0: ") && error.contains(what), "{error}");
+    }
 }
 
 #[test]
