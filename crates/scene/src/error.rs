@@ -25,6 +25,14 @@ pub enum Error {
     },
 }
 
+impl Error {
+    /// A file that could not be read, with the place (file and place in it) that names it.
+    pub(crate) fn named_in(path: PathBuf, source: &std::io::Error, place: &str) -> Self {
+        let source = std::io::Error::new(source.kind(), format!("{source} (named in {place})"));
+        Self::Io { path, source }
+    }
+}
+
 fn place_suffix(place: &str) -> String {
     if place.is_empty() { String::new() } else { format!(": {place}") }
 }

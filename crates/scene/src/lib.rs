@@ -28,6 +28,7 @@ mod image_file;
 mod load;
 mod material;
 pub mod photometry;
+mod regular_file;
 mod scene;
 mod solid;
 mod sun;

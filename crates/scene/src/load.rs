@@ -18,12 +18,11 @@ mod settings;
 mod site;
 mod solids;
 
-use std::io::Read;
 use std::path::Path;
 
 use crate::document::{Document, Spot};
 use crate::file::SceneFile;
-use crate::{Error, Scene, Sky, Warning};
+use crate::{Error, Scene, Sky, Warning, regular_file};
 use draft::Draft;
 
 /// The longest scene file that is read \[bytes\].
@@ -39,9 +38,8 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
         "glb" | "gltf" => model(path),
         "toml" => {
             let io = |source| Error::Io { path: path.to_path_buf(), source };
-            let mut bytes = Vec::new();
             // One byte more than allowed tells a file that is too long.
-            std::fs::File::open(path).map_err(io)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
+            let bytes = regular_file::read(path, MAX_BYTES + 1).map_err(io)?;
             let wrong = |what: String| Error::File { path: path.to_path_buf(), place: String::new(), what };
             if bytes.len() as u64 > MAX_BYTES {
                 return Err(wrong(format!("is longer than {} MiB", MAX_BYTES >> 20)));
@@ -146,11 +144,7 @@ fn reserved(root: &Spot<'_>, file: &SceneFile, warnings: &mut Vec<Warning>) {
 /// A file that could not be opened, with the place that names it.
 fn missing(spot: &Spot<'_>, error: Error) -> Error {
     match error {
-        Error::Io { path, source } => {
-            let named = spot.warning("");
-            let source = std::io::Error::new(source.kind(), format!("{source} (named in {})", named.place));
-            Error::Io { path, source }
-        }
+        Error::Io { path, source } => Error::named_in(path, &source, &spot.warning("").place),
         other => other,
     }
 }

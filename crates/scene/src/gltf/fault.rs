@@ -17,6 +17,8 @@ pub(super) enum Fault {
     },
     /// A file that the model names cannot be read.
     Io {
+        /// JSON pointer to what names it.
+        place: String,
         /// The file.
         path: PathBuf,
         /// What the system said.
@@ -32,7 +34,9 @@ impl Fault {
     pub(super) fn into_error(self, model: &Path) -> Error {
         match self {
             Self::Data { place, what } => Error::File { path: model.to_path_buf(), place, what },
-            Self::Io { path, source } => Error::Io { path, source },
+            Self::Io { place, path, source } => {
+                Error::named_in(path, &source, &format!("{}: {place}", model.display()))
+            }
         }
     }
 }

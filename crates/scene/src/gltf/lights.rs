@@ -1,6 +1,6 @@
 //! Lamps and suns: KHR_lights_punctual and EXT_lights_ies.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, Vec3};
 use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
@@ -158,10 +158,7 @@ fn with_profile(document: &Document<'_>, node: &Value, spot: &Spot<'_>) -> Check
     let place = format!("/extensions/EXT_lights_ies/lights/{}", node.light);
     let source = ProfileSource::deserialize(source).map_err(|error| wrong(&place, error))?;
     let ies = match (&source.uri, source.buffer_view) {
-        (Some(uri), None) => match resource::resolve(uri, document.folder, &format!("{place}/uri"))? {
-            Resource::File(path) => IesProfile::File(path),
-            Resource::Embedded(bytes) => IesProfile::Embedded(bytes),
-        },
+        (Some(uri), None) => profile_at(uri, document.folder, &format!("{place}/uri"))?,
         (None, Some(view)) => IesProfile::Embedded(document.view(view, &place)?.0.to_vec()),
         _ => return Err(Fault::new(place, "needs either uri or bufferView")),
     };
@@ -171,6 +168,17 @@ fn with_profile(document: &Document<'_>, node: &Value, spot: &Spot<'_>) -> Check
     let name = spot.name.map(str::to_owned).or(source.name).unwrap_or_default();
     let (kind, placement, ies) = (PunctualKind::Point, spot.placement, Some(ies));
     Ok(PunctualLight { name, kind, colour, intensity, placement, ies })
+}
+
+/// A file is opened by who places the lamp; where it is not there, that says so.
+fn profile_at(uri: &str, folder: &Path, place: &str) -> Checked<IesProfile> {
+    match resource::resolve(uri, folder, place)? {
+        Resource::Embedded(bytes) => Ok(IesProfile::Embedded(bytes)),
+        Resource::File(path) => match resource::real(&path, folder, place) {
+            Ok(Err(outside)) => Err(outside),
+            _ => Ok(IesProfile::File(path)),
+        },
+    }
 }
 
 fn check_amount(colour: Vec3, intensity: f64, place: &str) -> Checked<()> {

@@ -41,7 +41,7 @@ pub use cameras::ModelCamera;
 pub use lights::{IesProfile, PunctualKind, PunctualLight};
 pub use nodes::Placement;
 
-use crate::{Error, Material, Warning};
+use crate::{Error, Material, Warning, regular_file};
 use document::{Document, item};
 use fault::{Checked, Fault, Notes};
 use images::Images;
@@ -70,7 +70,7 @@ pub struct Model {
 
 /// Reads a `.glb` or `.gltf` file and what it names below its folder.
 pub fn read(path: &Path) -> Result<Model, Error> {
-    let bytes = resource::read_regular(path, u64::MAX)
+    let bytes = regular_file::read(path, u64::MAX)
         .map_err(|source| Error::Io { path: path.to_path_buf(), source })?;
     parse(&bytes, path.parent().unwrap_or(Path::new("")), path)
 }

@@ -1,10 +1,10 @@
 //! URIs in a model: data in the URI itself, or a file below the model's folder. Nothing else is followed.
 
 use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::fault::{Checked, Fault};
+use crate::regular_file;
 
 /// What a URI of a model stands for.
 pub(super) enum Resource {
@@ -42,30 +42,22 @@ pub(super) fn fetch(uri: &str, folder: &Path, place: &str, limit: u64) -> Checke
     match resolve(uri, folder, place)? {
         Resource::Embedded(bytes) => Ok(bytes),
         Resource::File(path) => {
-            // A link could lead out of the folder although its name does not.
-            let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-            let real = fs::canonicalize(&path).and_then(|real| Ok((real, fs::canonicalize(base)?)));
-            match real {
-                Ok((real, base)) if !real.starts_with(&base) => {
-                    Err(Fault::new(place, format!("{} leads out of the model's folder", path.display())))
-                }
-                Ok((real, _)) => read_regular(&real, limit).map_err(|source| Fault::Io { path, source }),
-                Err(source) => Err(Fault::Io { path, source }),
-            }
+            let io = |source| Fault::Io { place: place.to_owned(), path: path.clone(), source };
+            let real = real(&path, folder, place).map_err(io)??;
+            regular_file::read(&real, limit).map_err(io)
         }
     }
 }
 
-/// Reads a plain file, at most `limit` bytes: a pipe or a device would never end.
-pub(super) fn read_regular(path: &Path, limit: u64) -> std::io::Result<Vec<u8>> {
-    let about = fs::metadata(path)?;
-    if !about.is_file() {
-        return Err(std::io::Error::other("not a regular file"));
-    }
-    let length = about.len().min(limit);
-    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
-    fs::File::open(path)?.take(limit).read_to_end(&mut bytes)?;
-    Ok(bytes)
+/// Where `path`, below `folder` by its name, really lies: a link could lead out of the folder.
+pub(super) fn real(path: &Path, folder: &Path, place: &str) -> std::io::Result<Checked<PathBuf>> {
+    let base = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let (real, base) = (fs::canonicalize(path)?, fs::canonicalize(base)?);
+    Ok(if real.starts_with(&base) {
+        Ok(real)
+    } else {
+        Err(Fault::new(place, format!("{} leads out of the model's folder", path.display())))
+    })
 }
 
 /// `[media type][;base64],content`.

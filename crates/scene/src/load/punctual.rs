@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use light::Distribution;
+use light::colour::LUMINANCE;
 
 use super::lamps::{cone_distribution, isotropic_flux};
 use super::site::BRIGHTEST_SUN;
@@ -43,8 +44,8 @@ pub(crate) fn light(
 ) -> Result<Option<Placed>, Error> {
     let place = format!("{origin}: light {:?}", light.name);
     let mut warn = |what: String| warnings.push(Warning { place: place.clone(), what });
-    // The amount is what the colour leaves of white: linear sRGB to luminance (IEC 61966-2-1).
-    let amount = light.intensity * light.colour.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722));
+    // The amount is what the colour leaves of white.
+    let amount = light.intensity * light.colour.as_dvec3().dot(LUMINANCE.as_dvec3());
     let Some((position, world_from_light)) = rigid(placement, &light.placement) else { return Ok(None) };
     if amount <= 0.0 {
         warn("gives no light (colour or intensity is 0); it is left out".to_owned());
@@ -60,7 +61,10 @@ pub(crate) fn light(
     let distribution = match (&light.ies, light.kind) {
         (Some(profile), _) => {
             let photometry = match profile {
-                IesProfile::File(path) => photometry::read(path)?,
+                IesProfile::File(path) => photometry::read(path).map_err(|error| match error {
+                    Error::Io { path, source } => Error::named_in(path, &source, &place),
+                    other => other,
+                })?,
                 IesProfile::Embedded(bytes) => photometry::parse(bytes, place.as_ref())?,
             };
             for warning in photometry.warnings {
@@ -147,8 +151,8 @@ mod tests {
         // X scaled by 2 and turned to −Z; quaternions of f64 round in the last digits.
         assert!((lamp.position - DVec3::new(10.0, 0.0, -2.0)).length() < 1e-14);
         assert!((lamp.world_from_light.determinant() - 1.0).abs() < 1e-14);
-        // The sum of weights (0.2126 + 0.7152 + 0.0722) and f32: one rounding each.
-        assert!((lamp.distribution.peak() - 100.0).abs() < 1e-4);
+        // The weights of the colours sum to 1, exactly.
+        assert_eq!(lamp.distribution.peak(), 100.0);
     }
 
     #[test]

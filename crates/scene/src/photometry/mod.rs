@@ -29,10 +29,9 @@ mod numbers;
 mod opening;
 mod planes;
 
-use std::io::Read;
 use std::path::Path;
 
-use crate::{Error, Warning};
+use crate::{Error, Warning, regular_file};
 pub use ies::Tilt;
 pub use opening::{Opening, Shape};
 
@@ -71,10 +70,8 @@ pub struct Photometry {
 /// Reads the IES LM-63 or EULUMDAT file at `path`.
 pub fn read(path: &Path) -> Result<Photometry, Error> {
     let io = |source| Error::Io { path: path.to_path_buf(), source };
-    let mut bytes = Vec::new();
     // One byte more than allowed, so that `parse` sees that there is too much.
-    std::fs::File::open(path).map_err(io)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
-    parse(&bytes, path)
+    parse(&regular_file::read(path, MAX_BYTES + 1).map_err(io)?, path)
 }
 
 /// Reads the IES LM-63 or EULUMDAT text in `bytes`; `path` is for messages, its extension decides only if the

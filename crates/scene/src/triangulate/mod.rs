@@ -5,7 +5,7 @@ mod points_file;
 mod polygon;
 mod terrain;
 
-pub use points_file::{MAX_POINTS, read_points};
+pub use points_file::{MAX_POINTS, parse_points, read_points};
 pub use polygon::polygon;
 pub use terrain::{Terrain, terrain};
 

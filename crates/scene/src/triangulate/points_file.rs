@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::Error;
+use crate::{Error, regular_file};
 
 /// Points that a file may have: 2.4 GB of them.
 pub const MAX_POINTS: usize = 100_000_000;
@@ -19,15 +19,19 @@ const MAX_LINE: u64 = 10_000;
 /// As surveys have it, the numbers are east, north and *height*; they become x, height, −north (+Y up,
 /// north is −Z).
 pub fn read_points(path: &Path) -> Result<Vec<DVec3>, Error> {
-    let io = |source| Error::Io { path: path.to_path_buf(), source };
-    if !std::fs::metadata(path).map_err(io)?.is_file() {
-        return Err(io(std::io::Error::other("not a regular file")));
-    }
-    parse_points(BufReader::new(std::fs::File::open(path).map_err(io)?), path)
+    let opened = regular_file::open(path);
+    let (file, _) = opened.map_err(|source| Error::Io { path: path.to_path_buf(), source })?;
+    parse_points(BufReader::new(file), path)
 }
 
-/// [`read_points`] from anything.
-fn parse_points(mut text: impl BufRead, path: &Path) -> Result<Vec<DVec3>, Error> {
+/// [`read_points`] from memory or anything else; `path` is what errors call it.
+///
+/// ```
+/// let points = keikan_scene::triangulate::parse_points("4 5 6".as_bytes(), "a.xyz".as_ref())?;
+/// assert_eq!(points, [glam::DVec3::new(4.0, 6.0, -5.0)]); // east, height, −north
+/// # Ok::<(), keikan_scene::Error>(())
+/// ```
+pub fn parse_points(mut text: impl BufRead, path: &Path) -> Result<Vec<DVec3>, Error> {
     let mut points = Vec::new();
     let mut line = Vec::new();
     for number in 1.. {
