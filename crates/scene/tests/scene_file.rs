@@ -118,6 +118,23 @@ fn polygons_and_terrain_keep_their_size_far_away() {
 }
 
 #[test]
+fn polygons_that_cross_themselves_or_are_not_plane_are_named() {
+    let polygon = |points: &str| format!("[[model]]\npolygon = {{ points = [{points}] }}\n");
+    let tie = complaint(&polygon("[0, 0, 0], [3, 0, -2], [3, 0, 0], [0, 0, -2]"));
+    assert!(
+        tie.contains("[[model]] 1, key \"polygon\": the outline crosses or touches itself at the side"),
+        "{tie}"
+    );
+    let warnings = |height: &str| {
+        let points = format!("[0, 0, 0], [4, 0, 0], [4, {height}, -4], [0, 0, -4]");
+        scene(&polygon(&points)).warnings.into_iter().map(|w| w.what).collect::<Vec<_>>()
+    };
+    // A quarter of the height is left at each corner: 0.1 m of a diagonal of 5.7 m, and 5 mm.
+    assert!(warnings("0.4")[0].contains("up to 0.100 m off their plane"), "{:?}", warnings("0.4"));
+    assert_eq!(warnings("0.02"), [""; 0]);
+}
+
+#[test]
 fn materials_are_found_by_name() {
     let text = "[[material]]\nname = 'a'\ncolour = '#ffffff'\nroughness = 0.25\n[[material]]\nname = 'b'\ncolour = [0.1, 0.2, 0.3]\nemission = 100\n\
                 [[model]]\nbox = { size = [1, 1, 1] }\nmaterial = 'b'\n";

@@ -1,7 +1,7 @@
 //! Outlines and terrain: area kept, crossings refused, millimetres kept.
 
 use glam::{DMat3, DVec3};
-use keikan_scene::triangulate::{Fault, polygon, terrain};
+use keikan_scene::triangulate::{Fault, polygon, terrain, unevenness};
 use proptest::prelude::*;
 
 /// Twice the area vector of the triangles.
@@ -50,7 +50,12 @@ fn crossings_touches_and_nonsense_are_errors() {
     let crossing = at(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 3.0)]);
     let touching = at(&[(0.0, 0.0), (4.0, 0.0), (2.0, 2.0), (4.0, 4.0), (0.0, 4.0), (2.0, 2.0)]);
     let leaning = at(&[(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 0.0), (0.0, 4.0)]);
-    for outline in [crossing, touching, leaning] {
+    // Bow ties whose wings cancel, plain, turned out of all axes, and far away.
+    let tie = at(&[(0.0, 0.0), (3.0, 2.0), (3.0, 0.0), (0.0, 2.0)]);
+    let turn = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
+    let turned: Vec<DVec3> = tie.iter().map(|p| turn * p).collect();
+    let far: Vec<DVec3> = turned.iter().map(|p| p + DVec3::splat(1024.0)).collect();
+    for outline in [crossing, touching, leaning, tie, turned, far] {
         assert!(matches!(polygon(&outline, &[]), Err(Fault::Crossing(..))), "{outline:?}");
     }
     for outline in [at(&[]), at(&[(0.0, 0.0), (1.0, 0.0)]), at(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])] {
@@ -61,6 +66,24 @@ fn crossings_touches_and_nonsense_are_errors() {
     assert!(matches!(polygon(&square(0.0, 3.0), &[outside]), Err(Fault::HoleOutside(_))));
     let nested = [square(0.5, 2.5), square(1.0, 2.0)];
     assert!(matches!(polygon(&square(0.0, 3.0), &nested), Err(Fault::HoleOutside(_))));
+}
+
+#[test]
+fn corners_off_their_plane_are_measured() {
+    let mut outline = square(0.0, 4.0);
+    assert_eq!(unevenness(&outline, &[]), 0.0);
+    // A corner lifted by h turns the normal as well: n ∝ (−h/2, −h/2, 4) · 4, the corners' heights along it are
+    // 0, −h/2, 0, −h/2 … times 4/√(16 + h²/2), half their range h/4 times that.
+    outline[2].z = 0.4;
+    let expected = 0.1 * 4.0 / (16.0 + 0.5 * 0.4 * 0.4f64).sqrt();
+    assert!(
+        (unevenness(&outline, &[]) - expected).abs() < 4.0 * f64::EPSILON,
+        "{}",
+        unevenness(&outline, &[])
+    );
+    let hole = vec![DVec3::new(1.0, 1.0, -0.5), DVec3::new(2.0, 1.0, 0.5), DVec3::new(2.0, 2.0, 0.0)];
+    assert_eq!(unevenness(&square(0.0, 4.0), &[hole]), 0.5);
+    assert_eq!(unevenness(&[], &[]), 0.0);
 }
 
 #[test]

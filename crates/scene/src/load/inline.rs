@@ -17,6 +17,9 @@ pub(crate) const SHORTEST: f64 = 1e-9;
 /// Most sides of a prism: its corners are those of a polyhedron, which has 128 at most.
 const MOST_SIDES: f64 = 64.0;
 
+/// Corners of a polygon that are farther off their plane than this share of its size are worth a word.
+const UNEVEN: f64 = 1e-3;
+
 /// Triangles about their own middle, so that f32 keeps them exact, and where that middle is.
 pub(crate) struct Inline {
     pub(crate) mesh: Mesh,
@@ -66,7 +69,7 @@ pub(crate) fn geometry(
         return Ok(Some(Inline::new(&corners, vec![[0, 1, 2], [0, 2, 3]])));
     }
     if let Some(polygon) = &table.polygon {
-        return polygon_of(&spot.key("polygon"), polygon).map(Some);
+        return polygon_of(&spot.key("polygon"), polygon, warnings).map(Some);
     }
     if let Some(terrain) = &table.terrain {
         return terrain_of(&spot.key("terrain"), terrain, warnings).map(Some);
@@ -119,7 +122,7 @@ fn prism_of(corners: &[DVec3]) -> Inline {
     Inline::new(corners, caps.chain(walls).collect())
 }
 
-fn polygon_of(spot: &Spot<'_>, table: &PolygonTable) -> Result<Inline, Error> {
+fn polygon_of(spot: &Spot<'_>, table: &PolygonTable, warnings: &mut Vec<Warning>) -> Result<Inline, Error> {
     let outline = spot.key("points").points(&table.points)?;
     let holes = spot.key("holes");
     let holes: Vec<Vec<DVec3>> = table
@@ -129,6 +132,14 @@ fn polygon_of(spot: &Spot<'_>, table: &PolygonTable) -> Result<Inline, Error> {
         .map(|(i, hole)| holes.index(i).points(hole))
         .collect::<Result<_, _>>()?;
     let triangles = triangulate::polygon(&outline, &holes).map_err(|fault| spot.error(fault.to_string()))?;
+    let off = triangulate::unevenness(&outline, &holes);
+    let low = outline.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let high = outline.iter().copied().reduce(DVec3::max).unwrap_or_default();
+    if off > UNEVEN * (high - low).length() {
+        warnings.push(spot.warning(format!(
+            "corners lie up to {off:.3} m off their plane: the face is folded along lines that the file does not say"
+        )));
+    }
     let corners: Vec<DVec3> = outline.into_iter().chain(holes.into_iter().flatten()).collect();
     Ok(Inline::new(&corners, triangles))
 }

@@ -21,12 +21,38 @@ pub fn polygon(outer: &[DVec3], holes: &[Vec<DVec3>]) -> Result<Vec<[u32; 3]>, F
     if let Some(bad) = all.iter().position(|p| !p.is_finite() || p.abs().max_element() > 1e30) {
         return Err(Fault::NotFinite(bad));
     }
-    let flat = flatten(&all, area_vector(outer).try_normalize().ok_or(Fault::NoArea)?);
+    let (normal, cancels) = normal(outer).ok_or(Fault::NoArea)?;
+    let flat = flatten(&all, normal);
     let edges = edges(&loops, &flat);
     // The library panics on a few inputs that its own tests do not know; here they become an error.
     let built = catch_unwind(AssertUnwindSafe(|| constrained(&flat, &edges)));
     let cdt = built.unwrap_or_else(|_| Err(Fault::Library("an inner check failed".into())))?;
-    collect(&cdt, &flat, &loops)
+    if cancels { Err(Fault::NoArea) } else { collect(&cdt, &flat, &loops) }
+}
+
+/// How far corners lie off the plane between them that is normal to the face, at most; in the unit of the corners.
+/// 0 for a plane face, and for one without an area.
+pub fn unevenness(outer: &[DVec3], holes: &[Vec<DVec3>]) -> f64 {
+    let Some((normal, _)) = normal(outer) else { return 0.0 };
+    let origin = outer.first().copied().unwrap_or_default();
+    let heights = || outer.iter().chain(holes.iter().flatten()).map(|corner| normal.dot(*corner - origin));
+    let (low, high) = (heights().fold(0.0, f64::min), heights().fold(0.0, f64::max));
+    0.5 * (high - low)
+}
+
+/// The side from which the loop goes counter-clockwise, and whether its areas cancel: the wings of a bow tie go
+/// round either way, and only their plane is known. None where all corners lie on a line.
+fn normal(outer: &[DVec3]) -> Option<(DVec3, bool)> {
+    let area = area_vector(outer);
+    let origin = *outer.first()?;
+    let farthest =
+        outer.iter().map(|corner| *corner - origin).max_by(|a, b| a.length().total_cmp(&b.length()))?;
+    let widest = outer.iter().map(|corner| farthest.cross(*corner - origin));
+    let widest = widest.max_by(|a, b| a.length().total_cmp(&b.length()))?;
+    // What is left of areas that cancel is rounding: 10⁻¹⁶ for each corner of the triangle that spans them all.
+    let cancels = area.length() <= 1e-15 * outer.len() as f64 * widest.length();
+    let normal = if cancels { widest } else { area };
+    Some((normal.try_normalize()?, cancels))
 }
 
 /// Newell's normal: twice the area, along the side from which the loop goes counter-clockwise.
