@@ -1,7 +1,7 @@
 //! All triangles of a scene, ready for rays: what stands once in one hierarchy, what stands often once and
 //! placed many times under a second one.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec3};
 use light::{Geometry, Mesh};
@@ -50,7 +50,7 @@ pub(crate) struct Placement {
 }
 
 /// What a hierarchy is made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// Triangles in all placements together.
     pub triangles: usize,
@@ -64,14 +64,11 @@ pub struct Stats {
     pub nodes: usize,
     /// Memory on the heap \[B\].
     pub bytes: usize,
-    /// Time to build \[s\].
-    pub seconds: f64,
 }
 
 impl World {
     /// Makes a scene ready for rays.
     pub fn build(geometry: Arc<Geometry>, quality: Quality) -> Self {
-        let start = Instant::now();
         let shared = shared(&geometry);
         let mut dropped = 0;
         let standing = standing(&geometry, &shared, quality, &mut dropped);
@@ -91,12 +88,11 @@ impl World {
             bytes: all().map(Faces::bytes).sum::<usize>()
                 + size_of_val(&*tops.nodes)
                 + size_of_val(&*placements),
-            seconds: start.elapsed().as_secs_f64(),
         };
         Self { geometry, standing, models, tops, placements, stats }
     }
 
-    /// What was built, how large it is and how long it took.
+    /// What was built and how large it is.
     pub fn stats(&self) -> Stats {
         self.stats
     }
