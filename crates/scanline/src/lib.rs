@@ -63,6 +63,7 @@
 //! ```
 
 mod area;
+mod bodies;
 mod borders;
 mod buckets;
 mod cull;
@@ -80,6 +81,7 @@ mod slabs;
 mod spans;
 mod veil;
 
+pub use bodies::Localised;
 pub use knobs::{Knobs, Rule, Shading};
 pub use scanline::Scanline;
 pub use spans::{Span, Spans};

@@ -13,7 +13,7 @@ use crate::segment::Segment;
 use crate::{Scanline, Shading};
 
 /// Walks one line of a row from pixel to pixel.
-struct Walk<'a> {
+pub(crate) struct Walk<'a> {
     line: &'a Line,
     y: f64,
     weight: f64,
@@ -25,9 +25,14 @@ struct Walk<'a> {
     begun: Vec<Segment>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// From screen x `left` on, along a line at `y` that weighs `weight`.
+    pub(crate) fn new(line: &'a Line, y: f64, weight: f64, left: f64) -> Self {
+        Self { line, y, weight, opaque: line.first_right_of(left), veil: 0, begun: Vec::new() }
+    }
+
     /// Adds what this line shows of pixel `column`.
-    fn add(&mut self, column: u32, pixel: &mut Pixel, merge: bool) {
+    pub(crate) fn add(&mut self, column: u32, pixel: &mut Pixel, merge: bool) {
         let (left, right) = (f64::from(column), f64::from(column + 1));
         let spans = &self.line.opaque;
         while self.opaque < spans.len() && self.line.right(self.opaque) <= left {
@@ -92,14 +97,7 @@ impl Scanline {
             .grid
             .of_row(row)
             .zip(lines)
-            .map(|(number, line)| Walk {
-                line,
-                y: self.grid.y(number),
-                weight: self.grid.weight(row, number),
-                opaque: line.first_right_of(left),
-                veil: 0,
-                begun: Vec::new(),
-            })
+            .map(|(number, line)| Walk::new(line, self.grid.y(number), self.grid.weight(row, number), left))
             .collect();
         let merge = self.knobs.shading == Shading::PerPixel;
         let mut made = Vec::new();
@@ -123,7 +121,7 @@ impl Scanline {
         }
     }
 
-    fn opacity(&self, hit: &Hit) -> f64 {
+    pub(crate) fn opacity(&self, hit: &Hit) -> f64 {
         let mesh = self.geometry.instances[hit.instance as usize].mesh;
         let opacity = self.geometry.meshes[mesh as usize].opacity.as_ref();
         opacity.map_or(1.0, |opacity| f64::from(opacity.at(hit.uv, hit.uv_width)))
@@ -131,7 +129,7 @@ impl Scanline {
 
     /// The hit at the centroid of what shows of a face. It lies in the face, because all that shows does
     /// and a face is convex.
-    fn hit(&self, row: u32, column: u32, cover: &Cover) -> Hit {
+    pub(crate) fn hit(&self, row: u32, column: u32, cover: &Cover) -> Hit {
         let (instance, triangle) = self.face(cover.face);
         let at = DVec2::from_array(cover.moment) / cover.area;
         let (origin, direction) = self.view.line(at);
@@ -151,7 +149,7 @@ impl Scanline {
 }
 
 /// Takes what rounding to f32 added beyond 1 from the largest share.
-fn at_most_one(pieces: &mut [Piece]) {
+pub(crate) fn at_most_one(pieces: &mut [Piece]) {
     let sum: f64 = pieces.iter().map(|piece| f64::from(piece.share)).sum();
     if sum > 1.0
         && let Some(largest) = pieces.iter_mut().max_by(|a, b| a.share.total_cmp(&b.share))
@@ -163,7 +161,7 @@ fn at_most_one(pieces: &mut [Piece]) {
 }
 
 /// A well mixed number for a face in a pixel (the finaliser of SplitMix64).
-fn seed(column: u32, row: u32, face: u32) -> u32 {
+pub(crate) fn seed(column: u32, row: u32, face: u32) -> u32 {
     let mix = |value: u64| {
         let value = (value ^ (value >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let value = (value ^ (value >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -1,0 +1,218 @@
+//! Pieces of the pixels in which bodies may show.
+
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+
+use glam::DVec2;
+use light::{Hit, Known, Piece};
+
+use super::Localised;
+use super::hulls::{Interval, Projected, unite};
+use super::insert::insert;
+use super::runs::{Run, Strip};
+use super::sight::Sight;
+use crate::pixel::{Cover, Pixel};
+use crate::resolve::{Walk, at_most_one, seed};
+use crate::scanline::Line;
+use crate::{Rule, Shading};
+
+/// How often strips are halved in which the border of a body is bent: where it is level, or ends.
+const HALVED: u32 = 5;
+
+/// A strip of a stretch, or a part of one, with the bodies in it.
+struct Found {
+    y: f64,
+    weight: f64,
+    line: Line,
+    runs: Vec<Run>,
+}
+
+/// Where to look for bodies.
+struct Place<'a> {
+    hulls: Vec<&'a Projected>,
+    /// Left and right end of the stretch, in the wide picture.
+    bounds: [f64; 2],
+    width: f64,
+}
+
+impl Place<'_> {
+    fn intervals(&self, y: f64) -> Vec<Interval> {
+        let [left, right] = self.bounds;
+        let mut all: Vec<_> = self.hulls.iter().filter_map(|hull| hull.at(y, self.width)).collect();
+        // The margin is nobody's.
+        all.iter_mut().for_each(|i| i.x = [i.x[0].max(left), i.x[1].min(right)]);
+        all.retain(|i| i.x[0] < i.x[1]);
+        unite(&mut all);
+        all
+    }
+}
+
+impl Localised {
+    /// Adds the pieces of the columns `here` of a stretch of a row.
+    pub(super) fn stretch(
+        &self,
+        row: u32,
+        stretch: &Range<u32>,
+        here: Range<u32>,
+        lines: &[&Line],
+        pixel: &mut Pixel,
+        pieces: &mut Vec<Piece>,
+    ) {
+        let scanline = &*self.scanline;
+        let mut sight = Sight {
+            scanline,
+            bodies: &*self.bodies,
+            rays: 0,
+            first: stretch.start + scanline.margin,
+            asked: vec![false; stretch.len()],
+        };
+        let found = self.find(row, stretch, lines, &mut sight);
+        // What is outside of the asked-for columns is looked at as well: what a stretch shows does not depend on the
+        // columns.
+        let asked = &sight.asked[(here.start - stretch.start) as usize..(here.end - stretch.start) as usize];
+        self.pixels.fetch_add(asked.iter().filter(|asked| **asked).count() as u64, Ordering::Relaxed);
+        let left = f64::from(here.start + scanline.margin);
+        let walk = |found| {
+            let Found { y, weight, line, .. }: &Found = found;
+            Walk::new(line, *y, *weight, left)
+        };
+        let mut walks: Vec<Walk> = found.iter().map(walk).collect();
+        let merge = scanline.knobs.shading == Shading::PerPixel;
+        let mut untouched = here.start;
+        for column in here.clone() {
+            pixel.clear();
+            walks.iter_mut().for_each(|walk| walk.add(column + scanline.margin, pixel, merge));
+            if !pixel.covers.iter().any(|cover| cover.face >= self.base) {
+                continue;
+            }
+            let faces_only = untouched..column;
+            untouched = column + 1;
+            if !faces_only.is_empty() {
+                // It takes the pixel's memory, and gives it back emptied of this column's areas.
+                let mut other = Pixel::default();
+                scanline.resolve(row, faces_only, lines.iter().copied(), &mut other, pieces);
+            }
+            self.pixel(row, column, &found, &mut sight, pixel, pieces);
+        }
+        if untouched < here.end {
+            scanline.resolve(row, untouched..here.end, lines.iter().copied(), pixel, pieces);
+        }
+        self.rays.fetch_add(sight.rays, Ordering::Relaxed);
+    }
+
+    /// Finds the bodies on the lines of a stretch.
+    fn find(&self, row: u32, stretch: &Range<u32>, lines: &[&Line], sight: &mut Sight) -> Vec<Found> {
+        let scanline = &*self.scanline;
+        let width = f64::from(scanline.view.width);
+        let bounds = [stretch.start, stretch.end].map(|column| f64::from(column + scanline.margin));
+        let here = |interval: &Interval| interval.x[0] < bounds[1] && interval.x[1] > bounds[0];
+        let rows = [f64::from(row), f64::from(row + 1)];
+        let in_row = |hull: &&Projected| hull.between(rows, width).is_some_and(|i| here(&i));
+        let place = Place { hulls: self.hulls.iter().filter(in_row).collect(), bounds, width };
+        let mut found = Vec::new();
+        for (number, line) in scanline.grid.of_row(row).zip(lines) {
+            let (y, weight) = (scanline.grid.y(number), scanline.grid.weight(row, number));
+            self.strip(&place, (line, y), (y, weight), (&[], HALVED), sight, &mut found);
+        }
+        found
+    }
+
+    /// Finds the bodies on a strip (middle, height), a part of that of `line` at `faces_y`. `hints` are places
+    /// where they were met nearby.
+    fn strip(
+        &self,
+        place: &Place,
+        (line, faces_y): (&Line, f64),
+        (y, weight): (f64, f64),
+        (hints, halved): (&[f64], u32),
+        sight: &mut Sight,
+        found: &mut Vec<Found>,
+    ) {
+        let leaning = self.scanline.grid.rule == Rule::Exact;
+        let height = if leaning { weight } else { 0.0 };
+        let at = |share: f64| if leaning { place.intervals(y + share * height) } else { Vec::new() };
+        let intervals = [place.intervals(y), at(-0.5), at(0.5)];
+        let strip = Strip { line, y, faces_y, height, intervals, bounds: place.bounds, hints };
+        let mut nears = Vec::new();
+        let (runs, is_straight) = strip.runs(sight, &mut nears);
+        if is_straight || halved == 0 {
+            let line = insert(line, (&runs, &nears), self.base, place.bounds, leaning);
+            found.push(Found { y, weight, line, runs });
+            return;
+        }
+        let middles = runs.iter().map(|run| 0.5 * (run.x[0] + run.x[1]));
+        let hints: Vec<f64> = hints.iter().copied().chain(middles).collect();
+        for half in 0..2 {
+            let y = y + [-0.25, 0.25][half] * height;
+            let line = line.half(half);
+            self.strip(place, (&line, faces_y), (y, 0.5 * weight), (&hints, halved - 1), sight, found);
+        }
+    }
+
+    /// Adds the pieces of a pixel in which a body shows.
+    fn pixel(
+        &self,
+        row: u32,
+        column: u32,
+        found: &[Found],
+        sight: &mut Sight,
+        pixel: &mut Pixel,
+        pieces: &mut Vec<Piece>,
+    ) {
+        let scanline = &*self.scanline;
+        let mut made = Vec::new();
+        pixel.share_out(|cover| {
+            let hit = scanline.hit(row, column, cover);
+            cover.hit = made.len() as u32;
+            made.push(hit);
+            scanline.opacity(&hit)
+        });
+        let first = pieces.len();
+        for cover in pixel.covers.iter().filter(|cover| cover.share > 0.0) {
+            let hit = match made.get(cover.hit as usize) {
+                Some(hit) => Some(*hit),
+                None if cover.face < self.base => Some(scanline.hit(row, column, cover)),
+                None => self.body_hit([column, row], cover, found, sight),
+            };
+            if let Some(hit) = hit {
+                pieces.push(Piece { column, share: cover.share as f32, hit, known: Known::default() });
+            }
+        }
+        at_most_one(&mut pieces[first..]);
+    }
+
+    /// The hit at the centroid of what shows of a body; where that is not on the body, at the nearest place on a line
+    /// that is, or at one where it was met already.
+    fn body_hit(
+        &self,
+        [column, row]: [u32; 2],
+        cover: &Cover,
+        found: &[Found],
+        sight: &mut Sight,
+    ) -> Option<Hit> {
+        let body = cover.face - self.base;
+        let centroid = DVec2::from_array(cover.moment) / cover.area;
+        let mut places = vec![centroid];
+        let on_lines = found.iter().flat_map(|found| {
+            let runs = found.runs.iter().filter(|run| run.body == body);
+            runs.flat_map(|run| {
+                // Not on the border itself, which is known to within less than this.
+                let inset = (0.25 * (run.x[1] - run.x[0])).min(1.0 / 1024.0);
+                let x = centroid.x.clamp(run.x[0] + inset, run.x[1] - inset);
+                [DVec2::new(x, found.y), DVec2::new(run.sure, found.y)]
+            })
+        });
+        places.extend(on_lines);
+        places[1..].sort_by(|a, b| a.distance_squared(centroid).total_cmp(&b.distance_squared(centroid)));
+        let view = &self.scanline.view;
+        let (at, distance) = places
+            .into_iter()
+            .find_map(|at| sight.meet(body, at.x, at.y).map(|(distance, _)| (at, distance)))?;
+        let line = view.line(at);
+        let depth = -distance * line.1.dot(view.world_from_view.z_axis);
+        let pixel_width = view.pixel_width(depth.max(view.near)) as f32;
+        let mut hit = self.bodies.hit(body, line, distance, &view.ray(at), pixel_width);
+        hit.place.seed = seed(column, row, cover.face);
+        Some(hit)
+    }
+}
