@@ -7,9 +7,11 @@ use super::placement::look_along;
 use super::recentre::all_boxes;
 use crate::{Camera, Solid};
 
-/// Heading of the eye from the front of the model (+Z, as glTF has it) towards +X, and its height, degrees.
+/// Heading of the eye from the front of the model (+Z, as glTF has it) towards +X, and its height, degrees: low
+/// enough that the horizon of a level ground lies behind the model, with a third of the picture above it, as a
+/// person sees things that stand there.
 const HEADING: f64 = 35.0;
-const ABOVE: f64 = 17.0;
+const ABOVE: f64 = 7.0;
 
 /// Vertical field of view, degrees, and half of it as the frame is filled: a margin of 8 %.
 const FIELD: f64 = 36.0;
@@ -168,6 +170,27 @@ mod tests {
         }
         // A dozen roundings of numbers below 10.
         assert!((fullest - FILL).abs() < 1e-13, "{fullest}");
+    }
+
+    /// Height of the horizon in the picture, from its bottom: (1 + tan 7° / tan 18°) / 2 = 0.689; and a thing as high
+    /// as wide reaches above it.
+    #[test]
+    fn the_horizon_lies_behind_the_model() {
+        let wall = Mesh {
+            positions: quad(3.0).positions.iter().map(|p| Vec3::new(p.x, p.z, 0.0)).collect(),
+            ..quad(3.0)
+        };
+        let camera = frame(&placed(vec![wall, quad(3.0)]), &[]);
+        let Projection::Perspective { tan_half_height } = camera.projection else { panic!() };
+        let height = |way: DVec3| {
+            let seen = camera.world_from_camera.transpose() * way;
+            0.5 + 0.5 * seen.y / -seen.z / tan_half_height
+        };
+        let ahead = camera.world_from_camera * DVec3::NEG_Z;
+        let horizon = height(DVec3::new(ahead.x, 0.0, ahead.z));
+        assert!((0.6..0.7).contains(&horizon), "{horizon}");
+        let (foot, top) = (DVec3::new(0.0, -3.0, 0.0), DVec3::new(0.0, 3.0, 0.0));
+        assert!(height(foot - camera.position) < horizon && height(top - camera.position) > horizon);
     }
 
     #[test]
