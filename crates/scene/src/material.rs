@@ -37,7 +37,8 @@ pub struct Material {
     pub specular: f32,
     /// Colour of that reflection at normal incidence, linear sRGB, ≥ 0.
     pub specular_colour: Vec3,
-    /// What fills the body behind the surface (KHR_materials_volume); none = a thin pane.
+    /// What fills the body behind the surface (KHR_materials_volume); none = a thin pane, or of a solid, which is
+    /// a body always, a clear inside.
     pub volume: Option<Volume>,
     /// Share of light transmitted diffusely (KHR_materials_diffuse_transmission: leaves), within \[0, 1\].
     pub diffuse_transmission: f32,
@@ -84,7 +85,8 @@ impl Material {
 
     /// What fills a body of this material, for light that passes its surface; none for an opaque one.
     ///
-    /// σ = −ln(colour)/distance per band (KHR_materials_volume); without a volume it is a thin pane. The metallic
+    /// σ = −ln(colour)/distance per band (KHR_materials_volume); without a volume it is a thin pane. That is said of
+    /// triangles: for a [`crate::Solid`] of the same material `thin` means nothing, it is filled and clear. The metallic
     /// share of the surface lets nothing through. Textures do not count: a body's shadow has one tint.
     ///
     /// ```
