@@ -9,6 +9,16 @@ pub trait Surroundings {
     /// All light that arrives at `place`, from every source, each already past what occludes it.
     fn arrivals(&self, place: &Place, receive: &mut dyn FnMut(Arrival));
 
+    /// Of that, only what arrives as beams, for surfaces that extended light does nothing to: clear glass and
+    /// mirrors, which see it along their rays. Extended light is the costly part.
+    fn beams(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
+        self.arrivals(place, &mut |arrival| {
+            if matches!(arrival, Arrival::Beam { .. }) {
+                receive(arrival);
+            }
+        });
+    }
+
     /// Radiance that comes back along a further ray (mirrored, refracted) \[W m⁻² sr⁻¹ nm⁻¹\]. `path` is
     /// the further ray's own: the pipeline answers 0 where its share or depth is past the limit.
     fn radiance(&self, ray: &Ray, path: Path) -> Spectrum;

@@ -3,7 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use glam::DVec2;
-use light::{Known, Hit, Piece, See, View};
+use light::{Hit, Known, Piece, See, View};
 
 use crate::{
     query::{First, Met, weights},

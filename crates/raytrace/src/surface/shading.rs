@@ -200,15 +200,20 @@ impl Surface {
         let place = facing(&hit.place, local.normal);
         let mut field = Spectrum::ZERO;
         let mut radiance = self.emitted(hit);
-        around.arrivals(&place, &mut |arrival| match arrival {
+        let specular = local.specular_share();
+        let mirror = mirrored(local.roughness);
+        let even = local.diffuse_share() + specular * (1.0 - mirror);
+        let mut receive = |arrival| match arrival {
             Arrival::Beam { toward, irradiance } => {
                 radiance = irradiance.mul_add(local.reflect(toward), radiance);
             }
             Arrival::Field { irradiance } => field += irradiance,
-        });
-        let specular = local.specular_share();
-        let mirror = mirrored(local.roughness);
-        let even = local.diffuse_share() + specular * (1.0 - mirror);
+        };
+        if even.is_zero() {
+            around.beams(&place, &mut receive);
+        } else {
+            around.arrivals(&place, &mut receive);
+        }
         radiance += field * even * FRAC_1_PI;
         let mirrored = Mirrored {
             direction: mirror_direction(&local),
