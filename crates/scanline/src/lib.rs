@@ -8,6 +8,8 @@
 //! pieces are summed over its lines, one for each visible face, to be shaded once at their centroid. Before that,
 //! [`Scanline::spans`] tells what shows on a line, so that others (shadow volumes) may cut it first.
 //!
+//! [`Localised`] sees curved solids and set operations among the faces, and asks rays where their border is.
+//!
 //! Both sides of faces are seen. Faces with a [`light::Opacity`] let what lies behind through.
 //!
 //! **Cost.** O(n log n) for n faces, however deep they lie. Memory: 24 B a corner and 8 B a face that crosses a line,
@@ -28,7 +30,7 @@
 //! | crossing faces as large as the picture | 3 · 10⁴ | 0.01 | 6.4 | 7.4 | |
 //! | leaves with cut-out textures, some 12 deep | 10⁶ | 0.12 | 9.5 | 9.8 | |
 //!
-//! **Leaves out.** Shading, shadows, curved solids, lens and motion blur.
+//! **Leaves out.** Shading, shadows, lens and motion blur.
 //!
 //! **Where it is wrong.** Visibility is found on the lines only: where corners are too many to end strips there,
 //! or borders cross within a strip, coverage is off by up to the area between the border and its tangent, and what

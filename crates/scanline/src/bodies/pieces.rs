@@ -85,13 +85,12 @@ impl Localised {
             if !pixel.covers.iter().any(|cover| cover.face >= self.base) {
                 continue;
             }
-            let faces_only = untouched..column;
-            untouched = column + 1;
-            if !faces_only.is_empty() {
-                // It takes the pixel's memory, and gives it back emptied of this column's areas.
-                let mut other = Pixel::default();
-                scanline.resolve(row, faces_only, lines.iter().copied(), &mut other, pieces);
+            if untouched < column {
+                scanline.resolve(row, untouched..column, lines.iter().copied(), pixel, pieces);
+                pixel.clear();
+                walks.iter_mut().for_each(|walk| walk.add(column + scanline.margin, pixel, merge));
             }
+            untouched = column + 1;
             self.pixel(row, column, &found, &mut sight, pixel, pieces);
         }
         if untouched < here.end {

@@ -192,8 +192,10 @@ impl Strip<'_> {
         if self.height == 0.0 || cut.x <= self.bounds[0] || cut.x >= self.bounds[1] {
             return (cut.x, [cut.x; 2]);
         }
-        let top = self.follow(sight, cut, 1);
-        let bottom = self.follow(sight, cut, 2);
+        let top = self.follow(sight, cut, 1, (cut.x, 0.25 * self.height));
+        // Mostly it goes straight on.
+        let guess = top.map_or((cut.x, 0.25 * self.height), |top| (2.0 * cut.x - top, 4.0 * EXACT));
+        let bottom = self.follow(sight, cut, 2, guess);
         let bent = |(top, bottom): (f64, f64)| (0.5 * (top + bottom) - cut.x).abs() > BENT;
         if top.zip(bottom).is_none_or(bent) {
             *is_straight = false;
@@ -201,15 +203,23 @@ impl Strip<'_> {
         (cut.x, lean(cut.x, top, bottom))
     }
 
-    /// x of a cut's continuation at the top (1) or bottom (2) of the strip.
-    fn follow(&self, sight: &mut Sight, cut: &Cut, place: usize) -> Option<f64> {
+    /// x of a cut's continuation at the top (1) or bottom (2) of the strip, looked for from a guess on by steps that
+    /// double.
+    fn follow(
+        &self,
+        sight: &mut Sight,
+        cut: &Cut,
+        place: usize,
+        (guess, mut step): (f64, f64),
+    ) -> Option<f64> {
         let scene = self.scene(place);
         let is_left = |sight: &mut Sight, x: f64| body(sight.shown(x, &scene)) == cut.left;
-        let left_here = is_left(sight, cut.x);
+        let start = guess.clamp(self.bounds[0], self.bounds[1]);
+        let left_here = is_left(sight, start);
         let way = if left_here { 1.0 } else { -1.0 };
-        let (mut same, mut step) = (cut.x, 0.25 * self.height);
+        let mut same = start;
         let mut other = loop {
-            let x = (cut.x + way * step).clamp(self.bounds[0], self.bounds[1]);
+            let x = (start + way * step).clamp(self.bounds[0], self.bounds[1]);
             if x == same {
                 return None;
             }
