@@ -18,6 +18,7 @@
 //! Units everywhere: metres, W m⁻² sr⁻¹ nm⁻¹ (radiance), W m⁻² nm⁻¹ (irradiance), W sr⁻¹ nm⁻¹
 //! (intensity); cd/m², lx, cd after [`Spectrum::luminance`]. Axes as glTF: right-handed, +Y up.
 
+mod area;
 pub mod bands;
 mod bodies;
 pub mod check;
@@ -33,12 +34,14 @@ mod mesh;
 mod occlude;
 mod ray;
 pub mod rounding;
+mod sampling;
 mod see;
 mod shade;
 mod spectrum;
 mod texture;
 mod view;
 
+pub use area::{AreaLight, AreaShape};
 pub use bodies::{Bodies, Hull};
 pub use film::{Film, Layer};
 pub use hit::{Hit, Path, Place};

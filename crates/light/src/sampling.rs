@@ -1,0 +1,69 @@
+//! Sets of points, stratified and decided by a seed, and the occlusion of segments asked for in batches.
+
+use std::f32::consts::TAU;
+
+use crate::{Occlude, Ray, Spectrum};
+
+/// A place for a point of the unit square that one seed and one purpose decide.
+///
+/// `purpose` keeps sets apart that share a seed: those of two sources must not move together.
+pub(crate) fn shift(seed: u32, purpose: u32) -> [u32; 2] {
+    let first = scramble(seed ^ purpose.wrapping_mul(0x9E37_79B9));
+    [first, scramble(first ^ 0x85EB_CA6B)]
+}
+
+/// A bijection of the 32-bit numbers without visible pattern (the finaliser of MurmurHash3).
+pub(crate) fn scramble(mut x: u32) -> u32 {
+    x = (x ^ (x >> 16)).wrapping_mul(0x85EB_CA6B);
+    x = (x ^ (x >> 13)).wrapping_mul(0xC2B2_AE35);
+    x ^ (x >> 16)
+}
+
+/// Point `i` of `count` of the golden lattice, moved by `shift` around the torus; each within \[0, 1).
+///
+///   ( i/count, i (√5 − 1)/2 ) mod 1
+///
+/// One point in each of `count` columns, and the rows filled as evenly as any row of points can be.
+pub(crate) fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
+    let column = ((u64::from(i) << 32) / u64::from(count.max(1))) as u32;
+    let row = i.wrapping_mul(0x9E37_79B9);
+    [column.wrapping_add(shift[0]), row.wrapping_add(shift[1])].map(|x| (x >> 8) as f32 / 16_777_216.0)
+}
+
+/// The point of the unit disc that belongs to a point of the unit square, areas kept.
+pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
+    let radius = at[0].sqrt();
+    let (sin, cos) = (TAU * at[1]).sin_cos();
+    [radius * cos, radius * sin]
+}
+
+/// Segments asked for in one call to an occluder.
+const BATCH: usize = 64;
+
+/// The share of the light along weighed segments that arrives: Σ weight · transmittance / Σ weight; none where the
+/// weights sum to 0. Exactly 1 where nothing is in the way.
+pub(crate) fn share(
+    occlude: &dyn Occlude,
+    mut segments: impl Iterator<Item = (Ray, f32)>,
+) -> Option<Spectrum> {
+    let nothing = Ray::between(glam::Vec3::ZERO, glam::Vec3::ZERO);
+    let (mut rays, mut weights, mut answers) = ([nothing; BATCH], [0.0; BATCH], [Spectrum::ZERO; BATCH]);
+    let (mut through, mut total) = (Spectrum::ZERO, Spectrum::ZERO);
+    loop {
+        let mut count = 0;
+        for (slot, (ray, weight)) in segments.by_ref().take(BATCH).enumerate() {
+            (rays[slot], weights[slot]) = (ray, weight);
+            count = slot + 1;
+        }
+        if count == 0 {
+            break;
+        }
+        occlude.transmittances(&rays[..count], &mut answers[..count]);
+        for (weight, answer) in weights[..count].iter().zip(&answers) {
+            // Both sums take the same roundings, so that all of the light is exactly all of it.
+            through += *answer * *weight;
+            total += Spectrum::splat(*weight);
+        }
+    }
+    (total[0] > 0.0).then(|| through / total)
+}
