@@ -195,7 +195,7 @@ mod tests {
                 let x0 = if touch { x } else { x + gap };
                 x = x0 + length;
                 if x0 < x && x < WIDTH {
-                    visible.push(Segment { x0, x1: x, w, slope: 0.0, error: 0.3, face: i, lean: leans.len() as u32 });
+                    visible.push(Segment { x0, x1: x, w, slope: 0.0, error: 0.3, face: i, lean: leans.len() as u32, ..Segment::default() });
                     let (reach, heights) = ([[0.1, 1.0], [1.0, 0.0]], [1.1, 1.0]);
                     leans.push(Lean { x: [x0, x], edges: [left, right], fall: 0.0, reach, heights });
                 }

@@ -210,7 +210,7 @@ mod tests {
     const WIDTH: f64 = 64.0;
 
     fn segment(face: u32, x0: f64, length: f64, w: f64, slope: f64) -> Segment {
-        Segment { x0, x1: (x0 + length).min(WIDTH), w, slope, error: 1e-13, face, lean: 0 }
+        Segment { x0, x1: (x0 + length).min(WIDTH), w, slope, error: 1e-13, face, ..Segment::default() }
     }
 
     fn nearest(segments: &[Segment], x: f64) -> Option<f64> {

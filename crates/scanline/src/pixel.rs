@@ -1,12 +1,15 @@
 //! One pixel: which faces show in it, how much of each, and where.
 
 use crate::area::Area;
+use crate::known::Table;
 use crate::segment::Segment;
 
 /// A face's visible part of a pixel, or of one span in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cover {
     pub(crate) face: u32,
+    /// What is known of the light on it, as [`Segment::known`].
+    pub(crate) known: u32,
     /// Visible area, as if nothing transparent lay in front \[pixel\].
     pub(crate) area: f64,
     /// Area times x and area times y.
@@ -46,6 +49,28 @@ pub(crate) struct Pixel {
     order: Vec<u32>,
     cuts: Vec<f64>,
     veils: Vec<u32>,
+    /// What the numbers mean that covers have; kept by [`Pixel::clear`].
+    pub(crate) table: Table,
+}
+
+/// What an area is added to: those of one face and one light are put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Whose {
+    face: u32,
+    known: u32,
+}
+
+impl From<u32> for Whose {
+    /// Of this face, nothing known.
+    fn from(face: u32) -> Self {
+        Self { face, known: 0 }
+    }
+}
+
+impl From<&Segment> for Whose {
+    fn from(span: &Segment) -> Self {
+        Self { face: span.face, known: span.known }
+    }
 }
 
 impl Pixel {
@@ -56,17 +81,24 @@ impl Pixel {
     }
 
     /// Adds the interval \[l, r\] of an opaque span. `merge` = into what is known of its face.
-    pub(crate) fn opaque(&mut self, face: u32, l: f64, r: f64, y: f64, weight: f64, merge: bool) {
+    pub(crate) fn opaque(
+        &mut self,
+        whose: impl Into<Whose>,
+        (l, r): (f64, f64),
+        y: f64,
+        weight: f64,
+        merge: bool,
+    ) {
         let area = (r - l) * weight;
-        let index = self.cover(face, 0.5 * (l + r), y, area, merge);
+        let index = self.cover(whose.into(), 0.5 * (l + r), y, area, merge);
         self.covers[index].share += area;
     }
 
     /// Adds an area of an opaque span with its moments about (`x`, `y`).
-    pub(crate) fn leaning(&mut self, face: u32, part: Area, (x, y): (f64, f64), merge: bool) {
+    pub(crate) fn leaning(&mut self, whose: impl Into<Whose>, part: Area, (x, y): (f64, f64), merge: bool) {
         // What rounding left of nothing is nothing.
         if part.area > TINY {
-            let index = self.cover(face, x, y, part.area, merge);
+            let index = self.cover(whose.into(), x, y, part.area, merge);
             let cover = &mut self.covers[index];
             cover.moment[0] += part.x;
             cover.moment[1] += part.y;
@@ -74,11 +106,14 @@ impl Pixel {
         }
     }
 
-    fn cover(&mut self, face: u32, x: f64, y: f64, area: f64, merge: bool) -> usize {
-        let known = if merge { self.covers.iter().rposition(|cover| cover.face == face) } else { None };
-        let index = known.unwrap_or_else(|| {
+    fn cover(&mut self, whose: Whose, x: f64, y: f64, area: f64, merge: bool) -> usize {
+        let Whose { face, known } = whose;
+        let same = |cover: &Cover| cover.face == face && cover.known == known;
+        let before = if merge { self.covers.iter().rposition(same) } else { None };
+        let index = before.unwrap_or_else(|| {
             self.covers.push(Cover {
                 face,
+                known,
                 area: 0.0,
                 moment: [0.0; 2],
                 share: 0.0,
@@ -137,9 +172,9 @@ impl Pixel {
             });
             for k in begin..self.order.len() {
                 let face = veils[self.order[k] as usize].face;
-                self.order[k] = self.cover(face, middle, y, area, true) as u32;
+                self.order[k] = self.cover(face.into(), middle, y, area, true) as u32;
             }
-            let opaque = behind.map(|span| self.cover(span.face, middle, y, area, merge) as u32);
+            let opaque = behind.map(|span| self.cover(span.into(), middle, y, area, merge) as u32);
             let veils = (begin as u32, self.order.len() as u32);
             self.stacks.push(Stack { area, veils, opaque });
         }

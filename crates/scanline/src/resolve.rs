@@ -3,22 +3,22 @@
 use std::ops::Range;
 
 use glam::DVec2;
-use light::{Hit, Known, Piece, Ray};
+use light::{Hit, Piece, Ray};
 
 use crate::area::{self, Area};
 use crate::borders::Border;
 use crate::pixel::{Cover, Pixel};
 use crate::scanline::Line;
 use crate::segment::Segment;
-use crate::{Scanline, Shading};
+use crate::{Scanline, Shading, place};
 
 /// Walks one line of a row from pixel to pixel.
 pub(crate) struct Walk<'a> {
-    line: &'a Line,
-    y: f64,
+    pub(crate) line: &'a Line,
+    pub(crate) y: f64,
     weight: f64,
     /// First opaque span that ends right of the pixel's left border.
-    opaque: usize,
+    pub(crate) opaque: usize,
     /// First veil that has not begun yet.
     veil: usize,
     /// Veils that have begun and not ended.
@@ -56,7 +56,7 @@ impl<'a> Walk<'a> {
         if self.begun.is_empty() {
             for span in here {
                 let (l, r) = (span.x0.max(left), span.x1.min(right));
-                pixel.opaque(span.face, l, r, self.y, self.weight, merge);
+                pixel.opaque(span, (l, r), self.y, self.weight, merge);
             }
         } else {
             pixel.layered(here, &self.begun, (left, right), (self.y, self.weight), merge);
@@ -77,7 +77,7 @@ impl<'a> Walk<'a> {
             }
             let before = last.1;
             last = (sides.right, area::left_of(sides.right, left, self.weight));
-            pixel.leaning(span.face, last.1 - before, (left, self.y), merge);
+            pixel.leaning(span, last.1 - before, (left, self.y), merge);
         }
     }
 }
@@ -114,8 +114,12 @@ impl Scanline {
             let first = pieces.len();
             for cover in pixel.covers.iter().filter(|cover| cover.share > 0.0) {
                 let hit = made.get(cover.hit as usize).copied();
-                let hit = hit.unwrap_or_else(|| self.hit(row, column, cover));
-                pieces.push(Piece { column, share: cover.share as f32, hit, known: Known::default() });
+                let hit = hit.unwrap_or_else(|| {
+                    let within = place::within(&walks, pixel, cover, column + self.margin);
+                    self.hit(row, column, &within)
+                });
+                let known = pixel.table.known(cover.known);
+                pieces.push(Piece { column, share: cover.share as f32, hit, known });
             }
             at_most_one(&mut pieces[first..]);
         }

@@ -12,6 +12,7 @@ use crate::envelope::Envelope;
 use crate::grid::Grid;
 use crate::project::{self, Corners};
 use crate::segment::{self, Lean, Rounding, Segment};
+use crate::shadows::Shadows;
 use crate::slabs::{Event, Gather};
 use crate::{Knobs, Rule, veil};
 
@@ -36,6 +37,7 @@ pub struct Scanline {
     faces: Buckets<[u32; 2]>,
     clipped: Vec<Clipped>,
     clipped_at: Buckets<u32>,
+    pub(crate) shadows: Option<Shadows>,
 }
 
 /// What the near plane left of a face.
@@ -115,6 +117,7 @@ impl Scanline {
             faces,
             clipped,
             clipped_at,
+            shadows: None,
         }
     }
 

@@ -25,6 +25,8 @@ pub(crate) struct Segment {
     pub(crate) face: u32,
     /// Index of its [`Lean`] among those of the line.
     pub(crate) lean: u32,
+    /// What is known of the light on it ([`crate::known::Table`]).
+    pub(crate) known: u32,
 }
 
 /// How a segment changes from line to line.
@@ -200,7 +202,8 @@ fn between(
         return None;
     }
     let slope = (w1 - w0) / (x1 - x0);
-    let mut segment = Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face, lean: 0 };
+    let mut segment =
+        Segment { x0, x1: x1.min(rounding.width), w: w0, slope, error: 0.0, face, lean: 0, known: 0 };
     if x0 < 0.0 {
         segment.w = w0 - x0 * slope;
         segment.x0 = 0.0;
