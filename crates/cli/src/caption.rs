@@ -6,7 +6,8 @@ use scene::Scene;
 pub(crate) fn describe(scene: &Scene) -> String {
     let site = &scene.site;
     let sun = scene.sun.as_ref().map_or("no sun".to_owned(), |sun| {
-        format!("sun {:.2}° high at azimuth {:.2}°", sun.altitude, sun.azimuth)
+        let side = if sun.altitude < 0.0 { "below the horizon" } else { "high" };
+        format!("sun {:.2}° {side} at azimuth {:.2}°", sun.altitude.abs(), sun.azimuth)
     });
     format!(
         "{} UTC (local {}), latitude {:.4}°, longitude {:.4}°, {:.0} m, north {:.1}° from −Z; {sun}",

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use glam::Vec3;
+use light::colour::LUMINANCE;
 use palette::color_difference::Ciede2000;
 use palette::convert::FromColorUnclamped;
 use palette::white_point::D65;
@@ -133,7 +134,7 @@ fn ratio(value: f64, of: f64) -> f64 {
 
 /// The 99th percentile of the luminance.
 fn white(picture: &Picture) -> f32 {
-    let mut y: Vec<f32> = picture.rgb.iter().map(|rgb| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))).collect();
+    let mut y: Vec<f32> = picture.rgb.iter().map(|rgb| rgb.dot(LUMINANCE)).collect();
     y.sort_unstable_by(f32::total_cmp);
     y.get(y.len() * 99 / 100).copied().filter(|w| *w > 0.0).unwrap_or(1.0)
 }
@@ -145,7 +146,7 @@ fn lab(rgb: Vec3) -> Lab<D65, f32> {
 fn ssim(a: &Picture, b: &Picture, white: f32) -> Result<f64, Error> {
     let grey = |picture: &Picture| {
         let bytes = picture.rgb.iter().map(|rgb| {
-            let y = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)) / white;
+            let y = rgb.dot(LUMINANCE) / white;
             (light::colour::encode_srgb(y.clamp(0.0, 1.0)) * 255.0 + 0.5) as u8
         });
         image::GrayImage::from_raw(picture.width as u32, picture.height as u32, bytes.collect())

@@ -5,6 +5,8 @@ use std::io::Cursor;
 use glam::Vec3;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 
+use light::colour::LUMINANCE;
+
 use super::Picture;
 use crate::args::Tone;
 
@@ -57,7 +59,7 @@ fn into_gamut(rgb: Vec3) -> Vec3 {
     if least >= 0.0 {
         return rgb;
     }
-    let grey = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(0.0);
+    let grey = rgb.dot(LUMINANCE).max(0.0);
     grey + (rgb - grey) * (grey / (grey - least))
 }
 
@@ -131,7 +133,7 @@ mod tests {
     #[test]
     fn out_of_gamut_keeps_its_luminance() {
         let rgb = Vec3::new(-0.2, 0.5, 0.1);
-        let y = Vec3::new(0.2126, 0.7152, 0.0722);
+        let y = LUMINANCE;
         let moved = into_gamut(rgb);
         assert!(moved.min_element() >= -f32::EPSILON);
         // Four products and sums of numbers below 1.

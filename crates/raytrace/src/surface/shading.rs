@@ -3,6 +3,7 @@
 use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3;
+use light::colour::LUMINANCE;
 use light::{Arrival, Hit, Place, Shade, Spectrum, Surroundings};
 
 use super::albedo::{Albedo, Fraction};
@@ -14,9 +15,6 @@ use super::normals::{facing, shading_normal, terminator};
 const ALL_MIRROR: f32 = 0.25;
 /// Roughness from which no mirror ray is sent.
 pub const NO_MIRROR: f32 = 0.4;
-
-/// Luminance of linear sRGB (IEC 61966-2-1).
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 /// A surface at one hit, its textures read.
 struct Local<'a> {
