@@ -390,3 +390,26 @@ fn nothing_before_the_near_plane_shows() {
     let none = localised(&wall(9.0, -90.0), ahead(16), Knobs::default(), Balls::new(&[]));
     assert_eq!(picture(&none, 0..16, 0..16), picture(none.scanline(), 0..16, 0..16));
 }
+
+#[test]
+fn tips_beside_other_bodies_are_seen() {
+    // A large sphere, and before it small ones whose tips lie between two lines.
+    let mut balls = vec![(DVec3::new(0.0, 0.0, -30.0), 11.0)];
+    let small = |i: u32| {
+        let at = f64::from(i);
+        (DVec3::new(-8.1 + 2.03 * at, 0.17 * at - 3.3, -15.0), 0.8)
+    };
+    balls.extend((0..9).map(small));
+    let stage = localised(&Geometry::default(), flat(24), Knobs::default(), Balls::new(&balls));
+    let pieces = picture(&stage, 0..24, 0..24);
+    totals_at_most_one(&pieces, 24);
+    for body in 1..10 {
+        let area: f64 = shares(&pieces, 24, FIRST + body).iter().sum();
+        // What may be off are caps of strips halved five times, 2/3 · 2 √(2 · 0.8/128)/128 each = 6e-4 of the area,
+        // and borders by 2^−13.
+        assert!((area / (PI * 0.64) - 1.0).abs() < 2.0 * 6e-4 + 5.0 / 8192.0, "{body}: {area}");
+    }
+    let all: f64 = (0..10).map(|body| shares(&pieces, 24, FIRST + body).iter().sum::<f64>()).sum();
+    // As for a disc alone.
+    assert!((all / (PI * 121.0) - 1.0).abs() < 5e-5, "{all}");
+}

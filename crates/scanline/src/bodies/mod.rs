@@ -19,6 +19,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use light::{Bodies, Piece, See};
 
+use crate::cut::Cutter;
 use crate::pixel::Pixel;
 use crate::scanline::{Line, Scratch};
 use crate::{Rule, Scanline};
@@ -85,6 +86,15 @@ impl Localised {
         stretches.map(|[left, right]| column(left)..column(right)).filter(|range| !range.is_empty()).collect()
     }
 
+    /// The columns and all stretches that reach into them, in a row and the one above, whose last line may be the
+    /// first of this: what a stretch shows does not depend on the columns.
+    fn looked_at(&self, row: u32, columns: &Range<u32>) -> Range<u32> {
+        let stretches =
+            [row.checked_sub(1), Some(row)].into_iter().flatten().flat_map(|row| self.stretches(row));
+        let reach = stretches.filter(|stretch| stretch.start < columns.end && stretch.end > columns.start);
+        reach.fold(columns.clone(), |all, stretch| all.start.min(stretch.start)..all.end.max(stretch.end))
+    }
+
     fn row(
         &self,
         row: u32,
@@ -119,19 +129,25 @@ impl See for Localised {
         let columns = columns.start..columns.end.min(scanline.view.width - 2 * scanline.margin);
         let (mut scratch, mut pixel) = (Scratch::default(), Pixel::default());
         let (mut lines, mut below): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
-        let mut pieces = Vec::new();
+        let (mut pieces, mut cutter) = (Vec::new(), Cutter::default());
+        let mut light = |group: u32, lines: &mut [Line], pixel: &mut Pixel| {
+            scanline.cut(group, &self.looked_at(group, &columns), lines, &mut cutter, &mut pixel.table);
+        };
         // As the scanline does: by the trapezoid rule a row ends on the first line of the next.
         let ahead = scanline.grid.rule == Rule::Trapezoid;
         if ahead && !rows.is_empty() {
             scanline.group(rows.start, u32::MAX, &mut scratch, &mut below);
+            light(rows.start, &mut below, &mut pixel);
         }
         for row in rows.clone() {
             if ahead {
                 std::mem::swap(&mut lines, &mut below);
                 let count = if row + 1 < rows.end { u32::MAX } else { 1 };
                 scanline.group(row + 1, count, &mut scratch, &mut below);
+                light(row + 1, &mut below, &mut pixel);
             } else {
                 scanline.group(row, u32::MAX, &mut scratch, &mut lines);
+                light(row, &mut lines, &mut pixel);
             }
             let last = below.iter().take(usize::from(ahead));
             let all: Vec<&Line> = lines.iter().chain(last).collect();

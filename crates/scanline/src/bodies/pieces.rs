@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::Ordering;
 
 use glam::DVec2;
-use light::{Hit, Known, Piece};
+use light::{Hit, Piece};
 
 use super::Localised;
 use super::hulls::{Interval, Projected, unite};
@@ -14,7 +14,7 @@ use super::sight::Sight;
 use crate::pixel::{Cover, Pixel};
 use crate::resolve::{Walk, at_most_one, seed};
 use crate::scanline::Line;
-use crate::{Rule, Shading};
+use crate::{Rule, Shading, place};
 
 /// How often strips are halved in which the border of a body is bent: where it is level, or ends.
 const HALVED: u32 = 5;
@@ -91,7 +91,7 @@ impl Localised {
                 walks.iter_mut().for_each(|walk| walk.add(column + scanline.margin, pixel, merge));
             }
             untouched = column + 1;
-            self.pixel(row, column, &found, &mut sight, pixel, pieces);
+            self.pixel([column, row], (&found, &walks), &mut sight, pixel, pieces);
         }
         if untouched < here.end {
             scanline.resolve(row, untouched..here.end, lines.iter().copied(), pixel, pieces);
@@ -132,15 +132,14 @@ impl Localised {
         let at = |share: f64| if leaning { place.intervals(y + share * height) } else { Vec::new() };
         let intervals = [place.intervals(y), at(-0.5), at(0.5)];
         let strip = Strip { line, y, faces_y, height, intervals, bounds: place.bounds, hints };
-        let mut nears = Vec::new();
-        let (runs, is_straight) = strip.runs(sight, &mut nears);
-        if is_straight || halved == 0 {
-            let line = insert(line, (&runs, &nears), self.base, place.bounds, leaning);
+        let bodies = strip.find(sight);
+        if bodies.is_straight || halved == 0 {
+            let runs = bodies.runs;
+            let line = insert(line, (&runs, &bodies.nears), self.base, place.bounds, leaning);
             found.push(Found { y, weight, line, runs });
             return;
         }
-        let middles = runs.iter().map(|run| 0.5 * (run.x[0] + run.x[1]));
-        let hints: Vec<f64> = hints.iter().copied().chain(middles).collect();
+        let hints = [hints, &bodies.hints].concat();
         for half in 0..2 {
             let y = y + [-0.25, 0.25][half] * height;
             let line = line.half(half);
@@ -151,9 +150,8 @@ impl Localised {
     /// Adds the pieces of a pixel in which a body shows.
     fn pixel(
         &self,
-        row: u32,
-        column: u32,
-        found: &[Found],
+        [column, row]: [u32; 2],
+        (found, walks): (&[Found], &[Walk]),
         sight: &mut Sight,
         pixel: &mut Pixel,
         pieces: &mut Vec<Piece>,
@@ -170,11 +168,15 @@ impl Localised {
         for cover in pixel.covers.iter().filter(|cover| cover.share > 0.0) {
             let hit = match made.get(cover.hit as usize) {
                 Some(hit) => Some(*hit),
-                None if cover.face < self.base => Some(scanline.hit(row, column, cover)),
+                None if cover.face < self.base => {
+                    let within = place::within(walks, pixel, cover, column + scanline.margin);
+                    Some(scanline.hit(row, column, &within))
+                }
                 None => self.body_hit([column, row], cover, found, sight),
             };
             if let Some(hit) = hit {
-                pieces.push(Piece { column, share: cover.share as f32, hit, known: Known::default() });
+                let known = pixel.table.known(cover.known);
+                pieces.push(Piece { column, share: cover.share as f32, hit, known });
             }
         }
         at_most_one(&mut pieces[first..]);

@@ -26,6 +26,17 @@ pub(crate) struct Run {
     pub(crate) sure: f64,
 }
 
+/// What shows in a strip.
+pub(crate) struct Found {
+    pub(crate) runs: Vec<Run>,
+    /// What is known of the bodies' nearness, where veils need it: pieces that go straight from sample to sample.
+    pub(crate) nears: Vec<Segment>,
+    /// Where to look in its halves.
+    pub(crate) hints: Vec<f64>,
+    /// All borders go straight through the strip, from its top to its bottom.
+    pub(crate) is_straight: bool,
+}
+
 /// A strip and its line: where to look for bodies on it.
 pub(crate) struct Strip<'a> {
     pub(crate) line: &'a Line,
@@ -45,8 +56,9 @@ pub(crate) struct Strip<'a> {
 /// Where what is seen changes.
 struct Cut {
     x: f64,
-    /// The body to its left, if any.
+    /// The bodies on its left and right, if any.
     left: Option<u32>,
+    right: Option<u32>,
 }
 
 type Sample = (f64, Option<Shown>);
@@ -61,19 +73,17 @@ impl Strip<'_> {
         Scene { y, intervals: &self.intervals[place], opaque: &self.line.opaque, faces_y: self.faces_y }
     }
 
-    /// Finds all runs. `nears` receives what is known of the bodies' nearness, where veils need it: pieces that go
-    /// straight from sample to sample. Also: do their borders go straight through the strip?
-    pub(crate) fn runs(&self, sight: &mut Sight, nears: &mut Vec<Segment>) -> (Vec<Run>, bool) {
-        let mut runs = Vec::new();
+    /// Finds all runs.
+    pub(crate) fn find(&self, sight: &mut Sight) -> Found {
+        let (mut runs, mut nears, mut tips) = (Vec::new(), Vec::new(), Vec::new());
         let mut is_straight = true;
-        nears.clear();
         for stretch in stretches(&self.intervals[0]) {
             let samples = self.samples(sight, stretch);
             let mut known = samples.clone();
             let cuts = self.cuts(sight, &samples, stretch, &mut known);
             known.sort_by(|a, b| a.0.total_cmp(&b.0));
             if !self.line.veils.is_empty() {
-                straight(&known, nears);
+                straight(&known, &mut nears);
             }
             let mut border = |cut| self.border(sight, cut, &mut is_straight);
             let borders: Vec<(f64, Border)> = cuts.iter().map(&mut border).collect();
@@ -91,20 +101,24 @@ impl Strip<'_> {
                 }
             }
         }
-        if runs.is_empty() && self.height > 0.0 {
-            is_straight = !(1..3).any(|place| self.shows_at(sight, place));
+        for place in 1..3 {
+            self.missed(sight, place, &runs, &mut tips);
         }
-        (runs, is_straight)
+        let is_straight = is_straight && tips.is_empty();
+        tips.extend(runs.iter().map(|run| 0.5 * (run.x[0] + run.x[1])));
+        Found { runs, nears, hints: tips, is_straight }
     }
 
-    /// Does any sample at the top (1) or bottom (2) of the strip see a body?
-    fn shows_at(&self, sight: &mut Sight, place: usize) -> bool {
+    /// Bodies that show at the top (1) or bottom (2) of the strip, but not on the line: one place of each.
+    fn missed(&self, sight: &mut Sight, place: usize, runs: &[Run], tips: &mut Vec<f64>) {
         let scene = self.scene(place);
-        let all = stretches(&self.intervals[place]);
-        all.into_iter().any(|stretch| {
-            let xs = self.places(stretch, &self.intervals[place]);
-            xs.into_iter().any(|x| sight.shown(x, &scene).is_some())
-        })
+        for interval in &self.intervals[place] {
+            if !runs.iter().any(|run| run.body == interval.body) {
+                let xs = self.places(interval.x, std::slice::from_ref(interval));
+                let shows = |x: &f64| body(sight.shown(*x, &scene)) == Some(interval.body);
+                tips.extend(xs.into_iter().find(shows));
+            }
+        }
     }
 
     /// Primary samples (thesis 2.3.3): at the middle of each part that lies in one pixel and before one face, and
@@ -146,8 +160,8 @@ impl Strip<'_> {
     ) -> Vec<Cut> {
         let scene = self.scene(0);
         let mut cuts = Vec::new();
-        if samples.first().is_some_and(|sample| sample.1.is_some()) {
-            cuts.push(Cut { x: left, left: None });
+        if let Some(first) = samples.first().and_then(|sample| body(sample.1)) {
+            cuts.push(Cut { x: left, left: None, right: Some(first) });
         }
         for pair in samples.windows(2) {
             let (mut x, mut from) = (pair[0].0, body(pair[0].1));
@@ -166,12 +180,12 @@ impl Strip<'_> {
                         (beyond, shown) = (middle, there);
                     }
                 }
-                cuts.push(Cut { x: 0.5 * (x + beyond), left: from });
+                cuts.push(Cut { x: 0.5 * (x + beyond), left: from, right: body(shown) });
                 (x, from) = (beyond, body(shown));
             }
         }
         if let Some(last) = samples.last().and_then(|sample| body(sample.1)) {
-            cuts.push(Cut { x: right, left: Some(last) });
+            cuts.push(Cut { x: right, left: Some(last), right: None });
         }
         cuts
     }
@@ -213,31 +227,36 @@ impl Strip<'_> {
         (guess, mut step): (f64, f64),
     ) -> Option<f64> {
         let scene = self.scene(place);
-        let is_left = |sight: &mut Sight, x: f64| body(sight.shown(x, &scene)) == cut.left;
+        let at = |sight: &mut Sight, x: f64| body(sight.shown(x, &scene));
         let start = guess.clamp(self.bounds[0], self.bounds[1]);
-        let left_here = is_left(sight, start);
-        let way = if left_here { 1.0 } else { -1.0 };
+        let mut here = at(sight, start);
+        let on_left = here == cut.left;
+        let way = if on_left { 1.0 } else { -1.0 };
         let mut same = start;
-        let mut other = loop {
+        let (mut other, mut there) = loop {
             let x = (start + way * step).clamp(self.bounds[0], self.bounds[1]);
             if x == same {
                 return None;
             }
-            if is_left(sight, x) != left_here {
-                break x;
+            let there = at(sight, x);
+            if (there == cut.left) != on_left {
+                break (x, there);
             }
-            same = x;
+            (same, here) = (x, there);
             step *= 2.0;
         };
         while (other - same).abs() > EXACT {
             let middle = 0.5 * (same + other);
-            if is_left(sight, middle) == left_here {
-                same = middle;
+            let shown = at(sight, middle);
+            if (shown == cut.left) == on_left {
+                (same, here) = (middle, shown);
             } else {
-                other = middle;
+                (other, there) = (middle, shown);
             }
         }
-        Some(0.5 * (same + other))
+        // It may be another border of the same body.
+        let beyond = if on_left { there } else { here };
+        (beyond == cut.right).then_some(0.5 * (same + other))
     }
 }
 
