@@ -29,6 +29,10 @@ use hulls::Projected;
 ///
 /// Pixels in which no body shows have the pieces that the scanline gives them, to the bit.
 ///
+/// **How exactly.** Per pixel of the border of discs of 11 to 14 pixels, RMSE of coverage with 1, 2, 4, 8 strips: by the
+/// exact rule 9e-4, 3e-4, 1.4e-4, 7e-5; by the midpoint rule 0.11, 0.043, 0.014, 0.005 (`tests/bodies.rs`). Four spheres
+/// over a wall, 512 × 384, four strips: rays in 18 % of the pixels, nine in each.
+///
 /// **Where it is wrong.** A body that lies between two samples and covers neither is not seen: on a line, something
 /// narrower than a pixel that is also much narrower than its polyhedron. So are tips that lie between
 /// two lines. Borders are found to 1/8192 of a pixel. A body has one piece in a pixel,
