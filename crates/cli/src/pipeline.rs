@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::DVec2;
 use light::{
-    Arrival, Film, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, Ray, See, Shade, Spectrum,
-    Surroundings, Vacuum, View,
+    Arrival, Film, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, PointSource, Ray, See,
+    Shade, Spectrum, Surroundings, Vacuum, View,
 };
 use rayon::prelude::*;
 
@@ -22,6 +22,8 @@ pub struct Source {
     /// True for lights that reach surfaces as beams (sun, lamps): shaders make their highlights, so mirrored
     /// rays must not meet them once more.
     pub beam: bool,
+    /// Where a source is that casts sharp shadows; none for extended ones.
+    pub point: Option<PointSource>,
 }
 
 /// How far mirrored and refracted rays are followed.
@@ -183,6 +185,19 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
+    /// Asks these sources for what arrives at `place`; of what is known nobody needs to be asked.
+    fn ask(&self, sources: impl Iterator<Item = usize>, place: &Place, receive: &mut dyn FnMut(Arrival)) {
+        for i in sources {
+            let source = &self.pipeline.sources[i].light;
+            let bit = if i < 64 { 1u64 << i } else { 0 };
+            if self.known.lit & bit != 0 {
+                source.arrivals(place, &Vacuum, receive);
+            } else if self.known.dark & bit == 0 {
+                source.arrivals(place, &*self.pipeline.occlude, receive);
+            }
+        }
+    }
+
     fn leaves(&self, hit: &light::Hit) -> Spectrum {
         match self.pipeline.shade.get(hit.material as usize) {
             Some(shade) => shade.radiance(hit, self),
@@ -202,15 +217,12 @@ impl Around<'_> {
 
 impl Surroundings for Around<'_> {
     fn arrivals(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
-        for &i in self.sources {
-            let source = &self.pipeline.sources[i].light;
-            let bit = if i < 64 { 1u64 << i } else { 0 };
-            if self.known.lit & bit != 0 {
-                source.arrivals(place, &Vacuum, receive);
-            } else if self.known.dark & bit == 0 {
-                source.arrivals(place, &*self.pipeline.occlude, receive);
-            }
-        }
+        self.ask(self.sources.iter().copied(), place, receive);
+    }
+
+    fn beams(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
+        let beams = self.sources.iter().copied().filter(|&i| self.pipeline.sources[i].beam);
+        self.ask(beams, place, receive);
     }
 
     fn radiance(&self, ray: &Ray, path: Path) -> Spectrum {

@@ -50,6 +50,8 @@ pub struct Contents {
     pub materials: usize,
     /// Lamps.
     pub lights: usize,
+    /// Curved solids and set operations.
+    pub solids: usize,
     /// Faces that are not solid: alpha textures.
     pub cut_out_triangles: usize,
 }
@@ -111,6 +113,7 @@ impl Contents {
             instances: geometry.instances.len(),
             materials: scene.materials.len(),
             lights: scene.lights.len(),
+            solids: scene.solids.len(),
             cut_out_triangles: geometry
                 .instances
                 .iter()
@@ -197,9 +200,10 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
             "see",
             "scanline",
             format!(
-                "{} triangles, {} of them cut out by alpha; {} sub-scanlines",
+                "{} triangles, {} of them cut out by alpha, {} solids by rays within their hulls; {} sub-scanlines",
                 contents.triangles,
                 contents.cut_out_triangles,
+                contents.solids,
                 settings.choice("sub-scanlines")
             ),
         ),
@@ -237,9 +241,9 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
     let occlude = match (settings.choice("shadows"), lit) {
         (_, false) => stage("occlude", "", "no shadows: there is no light".to_owned()),
         ("off", _) => stage("occlude", "", "no shadows: shadows = off".to_owned()),
-        _ => stage(
+        (how, _) => stage(
             "occlude",
-            &format!("rays ({})", settings.choice("accelerate")),
+            &format!("{how} ({})", settings.choice("accelerate")),
             "something is lit".to_owned(),
         ),
     };

@@ -1,7 +1,7 @@
 //! Lights of the scene → sources of the pipeline.
 
 use glam::Vec3;
-use light::{Geometry, Luminaire, Spectrum};
+use light::{Geometry, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
 use sky::{Description, Dome, Pattern, Sun, atmosphere};
 
@@ -23,6 +23,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
             spectrum: colour(&light.spectrum),
         }),
         beam: true,
+        point: Some(PointSource::At(light.position)),
     }));
     sources
 }
@@ -64,10 +65,13 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
         angular_diameter_deg: sun.diameter as f32,
         samples: settings.integer("sun.samples"),
     };
+    // One ray to the middle of the disc is a point's sharp shadow.
+    let point = (light.samples == 1 || sun.diameter == 0.0).then_some(PointSource::Toward(sun.toward));
     (risen(sun) && !light.irradiance.is_zero()).then(|| Source {
         name: "sun".to_owned(),
         light: Box::new(light),
         beam: true,
+        point,
     })
 }
 
@@ -96,7 +100,12 @@ fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
         samples: settings.integer("sky.rays"),
         ..Description::new(pattern, toward_sun)
     };
-    Some(Source { name: "sky".to_owned(), light: Box::new(Dome::new(&description)), beam: false })
+    Some(Source {
+        name: "sky".to_owned(),
+        light: Box::new(Dome::new(&description)),
+        beam: false,
+        point: None,
+    })
 }
 
 /// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground

@@ -6,14 +6,14 @@ mod solids;
 
 use std::sync::Arc;
 
-use light::{First, Nearest, Occlude, Product, See, Shade, View};
+use light::{Bodies, First, Nearest, Occlude, PointSource, Product, See, Shade, View};
 use raytrace::solid::{Acceleration, Solids};
 use raytrace::{BruteForce, Quality, Rays, Supersample, World};
-use scanline::{Knobs, Rule, Scanline, Shading};
+use scanline::{Knobs, Localised, Rule, Scanline, Shading};
 use scene::{Camera, Scene};
 
 use crate::Error;
-use crate::pipeline::{Limits, Pipeline};
+use crate::pipeline::{Limits, Pipeline, Source};
 use crate::plan::Plan;
 
 pub(crate) use lights::skies;
@@ -28,18 +28,20 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
     let view = view(plan, scene)?;
     let (solids, mut more) = solids::bodies(scene)?.map_or((None, Vec::new()), |(s, m)| (Some(s), m));
     let traced = Traced::of(scene, plan, solids);
+    let sources = lights::sources(scene, settings);
+    let occlude = Arc::new(Product(match settings.choice("shadows") {
+        "off" => Vec::new(),
+        _ => traced.occlude(),
+    }));
     let mut shade: Vec<Box<dyn Shade>> = scene.materials.iter().map(materials::shade).collect();
     shade.append(&mut more);
     Ok(Pipeline {
         view,
-        see: see(plan, scene, view, &traced),
+        see: see(plan, scene, view, &traced, (&sources, &occlude)),
         nearest: traced.nearest(),
         shade,
-        sources: lights::sources(scene, settings),
-        occlude: Box::new(Product(match settings.choice("shadows") {
-            "off" => Vec::new(),
-            _ => traced.occlude(),
-        })),
+        sources,
+        occlude: Box::new(occlude),
         limits: Limits {
             depth: settings.integer("ray-depth") as u8,
             share: settings.number("ray-share") as f32,
@@ -48,7 +50,13 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
 }
 
 /// Who finds what the eye sees.
-fn see(plan: &Plan, scene: &Scene, view: View, traced: &Traced) -> Box<dyn See> {
+fn see(
+    plan: &Plan,
+    scene: &Scene,
+    view: View,
+    traced: &Traced,
+    (sources, occlude): (&[Source], &Arc<Product>),
+) -> Box<dyn See> {
     let settings = &plan.settings;
     let samples = settings.integer("samples");
     let per_face = settings.choice("shading") == "pixel";
@@ -58,8 +66,25 @@ fn see(plan: &Plan, scene: &Scene, view: View, traced: &Traced) -> Box<dyn See> 
             Box::new(Rays::new(Arc::clone(world), view, samples))
         }
         ("rays", _) => Box::new(Supersample::new(traced.nearest(), view, samples)),
-        _ => Box::new(Scanline::new(Arc::clone(&scene.geometry), view, knobs(plan))),
+        _ => {
+            let mut scanline = Scanline::new(Arc::clone(&scene.geometry), view, knobs(plan));
+            if settings.choice("shadows") == "volumes" {
+                scanline = scanline.with_shadows(points(sources), Arc::clone(occlude) as Arc<dyn Occlude>);
+            }
+            match &traced.solids {
+                Some([solids, _]) => {
+                    Box::new(Localised::new(scanline, Arc::clone(solids) as Arc<dyn Bodies>))
+                }
+                None => Box::new(scanline),
+            }
+        }
     }
+}
+
+/// The sources that cast sharp shadows, by the numbers that the pipeline knows them by.
+fn points(sources: &[Source]) -> Vec<(u32, PointSource)> {
+    let numbered = sources.iter().take(64).enumerate();
+    numbered.filter_map(|(i, source)| Some((i as u32, source.point?))).collect()
 }
 
 /// Who answers rays: the eye's and mirrors' (`nearest`), and those that ask for shadows (`occlude`).
