@@ -17,7 +17,8 @@
 //! and trees (a warning says so); what faces a set operation of solids has. Which models and knobs exist: names pass through as texts.
 //!
 //! **Where it is wrong.** UTC is taken for UT1 (the sun up to 0.004° off) and ΔT is an estimate; refraction
-//! is that of the standard atmosphere. Lamps are points. Positions become f32 about the scene's middle: half a
+//! is that of the standard atmosphere. Lamps are points but for rectangles and spheres, which are
+//! Lambertian. Positions become f32 about the scene's middle: half a
 //! millimetre off at 8 km.
 
 mod document;

@@ -1,5 +1,6 @@
 //! From files to a [`Scene`]: read, check, place, recentre.
 
+mod areas;
 mod check;
 mod draft;
 mod eyes;
@@ -115,7 +116,12 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     let mut photometry = lamps::Files::default();
     for (i, table) in file.light.iter().enumerate() {
         let spot = root.key("light").index(i);
-        draft.lights.push(lamps::lamp(&spot, i + 1, table, &mut photometry, &mut draft.warnings)?);
+        match areas::lamp(&spot, i + 1, table)? {
+            Some(lamp) => areas::add(draft, lamp),
+            None => {
+                draft.lights.push(lamps::lamp(&spot, i + 1, table, &mut photometry, &mut draft.warnings)?);
+            }
+        }
     }
     let mut library = models::Library::default();
     for (i, table) in file.model.iter().enumerate() {

@@ -21,8 +21,10 @@ pub struct Scene {
     pub solids: Vec<Solid>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
-    /// Lamps; their names differ, and none is `sun`, `sky` or `emission`.
+    /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky` or `emission`.
     pub lights: Vec<Light>,
+    /// Lamps that have an extent.
+    pub area_lights: Vec<AreaLight>,
     /// The sun, also while it is below the horizon; none = switched off, or neither placed nor timed.
     pub sun: Option<Sun>,
     /// What lights the scene from all around, if anything.
@@ -67,6 +69,48 @@ pub struct Light {
     pub distribution: Arc<Distribution>,
     /// What colour.
     pub spectrum: LightSpectrum,
+}
+
+/// A lamp with an extent: Lambertian, of the same luminance everywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AreaLight {
+    /// Its name, or `light-3`.
+    pub name: String,
+    /// Its middle in the world \[m\].
+    pub position: DVec3,
+    /// From the lamp's frame (axis −Z, width along +X, height along +Y) to the world.
+    pub world_from_light: DMat3,
+    /// What shines.
+    pub shape: AreaShape,
+    /// Luminance \[cd/m²\], the multiplier applied.
+    pub luminance: f64,
+    /// What colour.
+    pub spectrum: LightSpectrum,
+}
+
+/// The shape of a lamp with an extent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AreaShape {
+    /// Shines along the axis (−Z) only.
+    Rectangle {
+        /// Width along +X and height along +Y \[m\], > 0.
+        size: [f64; 2],
+    },
+    /// Shines outwards.
+    Sphere {
+        /// Radius \[m\], > 0.
+        radius: f64,
+    },
+}
+
+impl AreaShape {
+    /// Area that shines \[m²\].
+    pub fn area(&self) -> f64 {
+        match *self {
+            Self::Rectangle { size: [width, height] } => width * height,
+            Self::Sphere { radius } => 4.0 * std::f64::consts::PI * radius * radius,
+        }
+    }
 }
 
 /// The colour of a light; its amount stands elsewhere.

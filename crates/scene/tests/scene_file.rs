@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::{DVec3, Vec3};
-use keikan_scene::{Error, LightSpectrum, Scene, load, parse, schema};
+use keikan_scene::{AreaShape, Error, LightSpectrum, Scene, load, parse, schema};
 use light::Projection;
 use proptest::prelude::*;
 
@@ -164,6 +164,54 @@ fn lamps_have_the_amount_that_is_asked_for() {
     assert_eq!(lamp("intensity = 1\ntemperature = 3000").spectrum, LightSpectrum::Temperature(3000.0));
     let table = lamp("intensity = 1\nspectrum = [[400, 1], [700, 2]]").spectrum;
     assert_eq!(table, LightSpectrum::Table(vec![(400.0, 1.0), (700.0, 2.0)]));
+}
+
+#[test]
+fn lamps_with_an_extent_have_a_luminance_and_a_face() {
+    let scene = scene(
+        "[[light]]\nname = 'a'\nposition = [1, 3, 0]\nrectangle = { size = [2, 0.5] }\nluminance = 100\nmultiplier = 0.5\n\
+         rgb = [1, 0, 0]\n[[light]]\nposition = [0, 3, 0]\nsphere = { radius = 0.5 }\nflux = 10\ntemperature = 3000\n\
+         [[light]]\nname = 'a'\nposition = [0, 3, 0]\nintensity = 1\n",
+    );
+    let [rectangle, sphere] = &scene.area_lights[..] else { panic!("two of three") };
+    assert_eq!((rectangle.shape, rectangle.luminance), (AreaShape::Rectangle { size: [2.0, 0.5] }, 50.0));
+    assert_eq!(rectangle.world_from_light * DVec3::NEG_Z, DVec3::NEG_Y);
+    // Φ = π L A with A = π; two roundings.
+    let flux = std::f64::consts::PI.powi(2) * sphere.luminance;
+    assert!((flux / 10.0 - 1.0).abs() < 4.0 * f64::EPSILON);
+    assert_eq!((sphere.name.as_str(), &sphere.spectrum), ("light-2", &LightSpectrum::Temperature(3000.0)));
+    // Names of all lamps differ.
+    assert_eq!((scene.lights[0].name.as_str(), rectangle.name.as_str()), ("a", "a 2"));
+    // The rectangle alone is drawn: a face that looks down, just behind the plane that shines, and a back.
+    assert_eq!(scene.geometry.triangle_count(), 4);
+    let face = scene.geometry.triangle(0, 0);
+    assert!(face.cross().y < 0.0 && scene.geometry.triangle(1, 0).cross().y > 0.0);
+    assert!((face.0[0].y - 3.0001).abs() < 1e-9);
+    let material = &scene.materials[scene.geometry.meshes[0].material as usize];
+    // Pure red of luminance 50: 50 / 0.2126, rounded twice.
+    let red = 50.0 / light::colour::LUMINANCE.x;
+    assert!((material.emission - Vec3::X * red).abs().max_element() <= 4.0 * f32::EPSILON * red);
+}
+
+#[test]
+fn lamps_with_an_extent_are_checked() {
+    let wrong = |keys: &str| complaint(&format!("[[light]]\nposition = [0, 3, 0]\n{keys}\n"));
+    for (keys, expected) in [
+        ("rectangle = { size = [0, 1] }\nluminance = 1", "key \"rectangle.size\""),
+        ("sphere = { radius = -1 }\nluminance = 1", "key \"sphere.radius\""),
+        ("sphere = { radius = nan }\nluminance = 1", "key \"sphere.radius\""),
+        ("sphere = { radius = 1 }\nrectangle = { size = [1, 1] }\nluminance = 1", "only one of them"),
+        ("sphere = { radius = 1 }", "needs one of luminance, flux"),
+        ("sphere = { radius = 1 }\nluminance = 1\nflux = 1", "only one of luminance, flux"),
+        ("sphere = { radius = 1 }\nluminance = 1\nintensity = 1", "key \"intensity\": is for points"),
+        ("sphere = { radius = 1 }\nluminance = -1", "key \"luminance\""),
+        ("sphere = { radius = 1e-6 }\nflux = 1e6", "makes a luminance of"),
+        ("intensity = 1\nluminance = 1", "is for lamps with a rectangle or sphere"),
+        ("sphere = { radius = 1, r = 2 }\nluminance = 1", "unknown field"),
+    ] {
+        let message = wrong(keys);
+        assert!(message.contains(expected), "{keys}: {message}");
+    }
 }
 
 #[test]

@@ -123,7 +123,8 @@ pub(crate) struct TerrainTable {
     pub(crate) points: Option<Vec<[f64; 3]>>,
 }
 
-/// A lamp. One of intensity, flux, file; a file may be scaled to a flux.
+/// A lamp. One of intensity, flux, file; a file may be scaled to a flux. With rectangle or sphere, one of
+/// luminance, flux.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct LightTable {
@@ -141,6 +142,12 @@ pub(crate) struct LightTable {
     pub(crate) multiplier: Option<f64>,
     /// Confines the light to a cone.
     pub(crate) cone: Option<ConeTable>,
+    /// A luminous rectangle about its position that shines along the axis.
+    pub(crate) rectangle: Option<RectangleTable>,
+    /// A luminous sphere about its position.
+    pub(crate) sphere: Option<LuminousSphereTable>,
+    /// Of a rectangle or sphere [cd/m²].
+    pub(crate) luminance: Option<f64>,
     /// A point that the axis goes through [m].
     pub(crate) aim: Option<[f64; 3]>,
     /// Instead of `aim`: where the axis goes. Default [0, −1, 0], straight down.
@@ -154,6 +161,22 @@ pub(crate) struct LightTable {
     pub(crate) rgb: Option<[f64; 3]>,
     /// Relative power: [[wavelength in nm, power], …], rising.
     pub(crate) spectrum: Option<Vec<[f64; 2]>>,
+}
+
+/// A luminous rectangle.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RectangleTable {
+    /// Width and height [m], > 0: along +X and towards −Z for a lamp that looks straight down without roll.
+    pub(crate) size: [f64; 2],
+}
+
+/// A luminous sphere.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LuminousSphereTable {
+    /// [m], > 0.
+    pub(crate) radius: f64,
 }
 
 /// A cone of light, as glTF defines it.

@@ -8,7 +8,7 @@ use light::{Geometry, Instance, Mesh};
 
 use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
-use crate::{Camera, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
+use crate::{AreaLight, Camera, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
 /// 16384 is 0.98 mm.
@@ -22,6 +22,7 @@ pub(crate) struct Draft {
     pub(crate) solids: Vec<Solid>,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: Vec<Light>,
+    pub(crate) area_lights: Vec<AreaLight>,
     pub(crate) sun: Option<Sun>,
     /// False where the file decides about the sun itself, so that a model's does not count.
     pub(crate) sun_is_open: bool,
@@ -85,6 +86,7 @@ impl Draft {
             .lights
             .iter()
             .map(|light| light.position)
+            .chain(self.area_lights.iter().map(|light| light.position))
             .chain(self.sensors.iter().filter_map(|sensor| sensor.points.first().copied()))
             .chain(self.cameras.iter().map(|camera| camera.position))
             .collect();
@@ -97,6 +99,7 @@ impl Draft {
             solid.node.placements_mut(&mut |placement| placement.translation -= origin);
         });
         self.lights.iter_mut().for_each(|light| light.position -= origin);
+        self.area_lights.iter_mut().for_each(|light| light.position -= origin);
         self.cameras.iter_mut().for_each(|camera| camera.position -= origin);
         self.sensors.iter_mut().flat_map(|sensor| &mut sensor.points).for_each(|point| *point -= origin);
         self.fill();
@@ -108,6 +111,7 @@ impl Draft {
             solids: self.solids,
             materials: self.materials,
             lights: self.lights,
+            area_lights: self.area_lights,
             sun: self.sun,
             sky: self.sky,
             cameras: self.cameras,
@@ -120,7 +124,8 @@ impl Draft {
     /// Makes the names of cameras, lights and sensors differ.
     fn name_apart(&mut self, place: &str) {
         let cameras = self.cameras.iter_mut().map(|camera| &mut camera.name);
-        let lights = self.lights.iter_mut().map(|light| &mut light.name);
+        let areas = self.area_lights.iter_mut().map(|light| &mut light.name);
+        let lights = self.lights.iter_mut().map(|light| &mut light.name).chain(areas);
         let sensors = self.sensors.iter_mut().map(|sensor| &mut sensor.name);
         self.warnings.extend(make_unique(cameras, &[], ("cameras", place)));
         self.warnings.extend(make_unique(lights, &LAYERS, ("lights", place)));

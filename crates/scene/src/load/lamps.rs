@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use light::Distribution;
 
 use super::placement::{look_along, rotation};
@@ -16,7 +16,7 @@ use crate::photometry::{self, Photometry};
 use crate::{Error, Light, LightSpectrum, Warning};
 
 /// Strongest intensity, flux, multiplier that is possible.
-const STRONGEST: f64 = 1e12;
+pub(crate) const STRONGEST: f64 = 1e12;
 
 /// Photometric files that were read: a street has hundreds of lamps of one kind.
 pub(crate) type Files = BTreeMap<PathBuf, Photometry>;
@@ -29,19 +29,32 @@ pub(crate) fn lamp(
     files: &mut Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Light, Error> {
-    let name = table.name.clone().unwrap_or_else(|| format!("light-{number}"));
-    let at = spot.key("position");
-    let position = at.point(at.required(table.position)?)?;
-    let axis = axis(spot, table, position)?;
-    let roll = spot.key("roll").within(table.roll.unwrap_or(0.0), -1e6, 1e6, "degrees")?;
-    // Clockwise for who looks along −Z is clockwise about +Z as well: against the mathematical sense.
-    let world_from_light = look_along(axis, DVec3::Y) * rotation([0.0, 0.0, -roll]);
+    if table.luminance.is_some() {
+        return Err(spot.key("luminance").error("is for lamps with a rectangle or sphere: a point has none"));
+    }
+    let name = name(table, number);
+    let (position, world_from_light) = placed(spot, table)?;
     let (distribution, own_temperature) = distribution(spot, table, files, warnings)?;
     let given = spot.spectrum(table.temperature, table.rgb, table.spectrum.as_deref())?;
     let own =
         own_temperature.filter(|kelvin| (1000.0..=25000.0).contains(kelvin)).map(LightSpectrum::Temperature);
     let spectrum = given.or(own).unwrap_or(LightSpectrum::Rgb(Vec3::ONE));
     Ok(Light { name, position, world_from_light, distribution: Arc::new(distribution), spectrum })
+}
+
+/// Its name, given or made.
+pub(crate) fn name(table: &LightTable, number: usize) -> String {
+    table.name.clone().unwrap_or_else(|| format!("light-{number}"))
+}
+
+/// Where the lamp is, and how it is turned: from its frame (axis −Z) to the world.
+pub(crate) fn placed(spot: &Spot<'_>, table: &LightTable) -> Result<(DVec3, DMat3), Error> {
+    let at = spot.key("position");
+    let position = at.point(at.required(table.position)?)?;
+    let axis = axis(spot, table, position)?;
+    let roll = spot.key("roll").within(table.roll.unwrap_or(0.0), -1e6, 1e6, "degrees")?;
+    // Clockwise for who looks along −Z is clockwise about +Z as well: against the mathematical sense.
+    Ok((position, look_along(axis, DVec3::Y) * rotation([0.0, 0.0, -roll])))
 }
 
 /// Where the lamp's axis (γ = 0) goes.

@@ -9,7 +9,7 @@ use crate::file::{Colour, MaterialTable, OneOrThree};
 use crate::{Error, Material, Volume};
 
 /// Brightest luminance that a surface may be given \[cd/m²\]: the sun's disc has 1.6e9.
-const BRIGHTEST: f64 = 1e10;
+pub(crate) const BRIGHTEST: f64 = 1e10;
 
 /// What inline geometry is made of unless it says so: a matt grey that reflects half of all light.
 pub(crate) fn grey() -> Material {
