@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion};
 use glam::{DAffine3, DVec3, Vec3};
 use keikan_scanline::{Knobs, Rule, Scanline};
-use light::{Geometry, Instance, Mesh, Opacity, See, Texture, View, Wrap};
+use light::{Geometry, Instance, Mesh, Opacity, PointSource, See, Texture, Vacuum, View, Wrap};
 use rayon::prelude::*;
 
 const SIZE: [u32; 2] = [1920, 1080];
@@ -168,6 +168,20 @@ fn by(rule: Rule, name: &str, geometry: &Arc<Geometry>, size: [u32; 2]) {
     );
 }
 
+/// What it takes to cut spans, beside what an occluder takes that has nothing to say.
+fn shadows() {
+    let (geometry, size) = (Arc::new(town(50)), [512, 384]);
+    let lamp = |i: u32| (i, PointSource::At(DVec3::new(100.0 - 200.0 * f64::from(i), 300.0, 900.0)));
+    for count in [0, 1, 3] {
+        let stage = Scanline::new(geometry.clone(), view(size), Knobs::default())
+            .with_shadows((0..count).map(lamp).collect(), Arc::new(Vacuum));
+        let begun = processor_seconds();
+        let pieces = (0..20).map(|_| look(&stage, size)).sum::<u64>() / 20;
+        let each = (processor_seconds() - begun) / 20.0;
+        println!("once town of 602 triangles, {count} sources: {each:.4} processor seconds, {pieces} pieces");
+    }
+}
+
 fn main() {
     let mut criterion = Criterion::default()
         .configure_from_args()
@@ -187,6 +201,7 @@ fn main() {
     // Deep: large faces that pass through one another, and leaves that let others through.
     once("town", town(100), SIZE);
     once("town", town(1000), SIZE);
+    shadows();
     once("soup", placed(scattered(300, 60.0)), SIZE);
     once("soup", placed(scattered(3_000, 60.0)), SIZE);
     once("soup", placed(scattered(30_000, 60.0)), SIZE);

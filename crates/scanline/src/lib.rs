@@ -6,7 +6,9 @@
 //! cyclically, and faces that share an edge leave no gap. Around its line each border goes on as the edge does that
 //! makes it, so that what is summed are areas; strips between lines end at corners where these are few. A pixel's
 //! pieces are summed over its lines, one for each visible face, to be shaded once at their centroid. Before that,
-//! [`Scanline::spans`] tells what shows on a line, so that others (shadow volumes) may cut it first.
+//! [`Scanline::with_shadows`] cuts spans where the light of point sources begins and ends (thesis 2.3.2): borders of
+//! shadows have exact coverage too, and pieces come with what is known of their light. [`Scanline::spans`] tells
+//! what shows on a line, uncut.
 //!
 //! [`Localised`] sees curved solids and set operations among the faces, and asks rays where their border is.
 //!
@@ -30,13 +32,17 @@
 //! | crossing faces as large as the picture | 3 · 10⁴ | 0.01 | 6.4 | 7.4 | |
 //! | leaves with cut-out textures, some 12 deep | 10⁶ | 0.12 | 9.5 | 9.8 | |
 //!
-//! **Leaves out.** Shading, shadows, lens and motion blur.
+//! Cutting at shadows takes a tenth more for one source as for three (town of 600 faces, 512 × 384: 0.0215 s without,
+//! 0.0238 s and 0.0241 s), beside what the occluder takes for its answers ([`Scanline::cut_from`]).
+//!
+//! **Leaves out.** Shading, finding shadows (a [`light::Occlude`] is asked), lens and motion blur.
 //!
 //! **Where it is wrong.** Visibility is found on the lines only: where corners are too many to end strips there,
 //! or borders cross within a strip, coverage is off by up to the area between the border and its tangent, and what
 //! fits between two lines is not seen at all. So corners of finely meshed planes are less sharp than
 //! those of coarse ones (by a strip's height at most). Outlines so level that they come more than 8 pixels
-//! into the picture within half a strip are cut off at its sides. Veils are sampled on the lines, and so is what
+//! into the picture within half a strip are cut off at its sides. Shadows are cut by the same rule, but strips do
+//! not end at their corners: straight borders are exact, a corner is off within its strip. Veils are sampled on the lines, and so is what
 //! shows through them; those that pass through each other are ordered by their nearness at the middle of each
 //! interval between face borders within a pixel.
 //! A veil that, with those before it, lets less than 1/2048 through is taken for opaque. A veil's opacity is

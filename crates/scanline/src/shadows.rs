@@ -125,14 +125,17 @@ impl Asked {
                 (0, _) => Reach::Ask,
                 _ => Reach::Dark,
             };
-            push(out, Change { x: chord.x(event.0), reach });
+            let x = chord.x(event.0);
+            // What has no width on the screen does not show: neither at the end nor before the next change.
+            if chord.x[1] - x > SAME {
+                push(out, Change { x, reach });
+            }
         }
     }
 }
 
 /// Adds a change if it is one.
 fn push(out: &mut Vec<Change>, change: Change) {
-    // What has no width on the screen does not show.
     while out.last().is_some_and(|last| change.x - last.x <= SAME) && out.len() > 1 {
         out.pop();
     }
@@ -162,6 +165,18 @@ mod tests {
         fn shadows(&self, _: &PointSource, _: DVec3, _: DVec3, out: &mut Vec<Stretch>) -> bool {
             out.extend_from_slice(&self.0);
             true
+        }
+    }
+
+    #[test]
+    fn what_has_no_width_does_not_show() {
+        let dark = |from: f64, to: f64| Stretch { from, to, dark: true };
+        let chord = Chord { x: [3.0, 17.0], ends: [DVec3::ZERO, DVec3::X], depths: [1.0, 2.0] };
+        let source = PointSource::Toward(DVec3::Y);
+        for stretches in [[dark(0.0, 1e-13), dark(0.5, 0.5 + 1e-13)], [dark(1.0 - 1e-13, 1.0); 2]] {
+            let mut changes = Vec::new();
+            Asked::default().changes(&Given(stretches.into()), &source, &chord, &mut changes);
+            assert_eq!(changes, [Change { x: 3.0, reach: Reach::Lit }]);
         }
     }
 
