@@ -313,6 +313,39 @@ fn what_is_not_told_stays_unknown() {
 }
 
 #[test]
+fn veils_stay_unknown_and_what_lies_behind_is_known() {
+    let veil = |y: f32| {
+        let corners = [(-900.0, 900.0), (900.0, 900.0), (0.0, -900.0)];
+        let opacity = Some(Arc::new(light::Opacity { texture: None, factor: 0.25, cutoff: None }));
+        light::Mesh { opacity, ..soup(&[corners.map(|(x, z)| Vec3::new(x, y, z))]) }
+    };
+    let Geometry { mut meshes, mut instances } = floor(1);
+    meshes.push(veil(1.0));
+    instances.push(light::Instance { mesh: 1, ..instances[0] });
+    let screens = Screens::new(vec![half_plane(1.0)]);
+    let sun = sources()[1];
+    let stage = stage(Geometry { meshes, instances }, above(), Knobs::default())
+        .with_shadows(vec![(5, sun), (63, sun), (64, sun), (u32::MAX, sun)], Arc::new(screens));
+    let both = 1 << 5 | 1 << 63;
+    let (mut lit, mut dark) = (0.0, 0.0);
+    for (_, piece) in all(&stage) {
+        match (piece.hit.instance, piece.known) {
+            (1, Known { lit: 0, dark: 0 }) => {}
+            (0, Known { lit: bits, dark: 0 }) if bits == both => lit += piece.share,
+            (0, Known { lit: 0, dark: bits }) if bits == both => dark += piece.share,
+            other => panic!("{other:?}"),
+        }
+    }
+    // Behind the veil three quarters are left of all 24 × 24 pixels, each share rounded to f32.
+    let whole = 0.75 * (SIZE * SIZE) as f32;
+    assert!(
+        lit > 0.0
+            && dark > 0.0
+            && (lit + dark - whole).abs() < whole * (2 * SIZE * SIZE) as f32 * f32::EPSILON
+    );
+}
+
+#[test]
 fn the_way_the_picture_is_cut_does_not_matter() {
     let screens = Screens::new((0..5).map(|i| [3 * i, 3 * i + 1, 3 * i + 2].map(corner).into()).collect());
     let lamps = (0..7).map(|i| (9 * i, PointSource::At(corner(i + 50) + 7.0 * DVec3::Y))).collect::<Vec<_>>();
