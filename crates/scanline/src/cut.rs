@@ -49,13 +49,14 @@ struct Cut {
 }
 
 impl Scanline {
-    /// Tells which of `sources`, point lamps and suns by their numbers (0 to 63; others are ignored), reach what is
-    /// seen: [`light::Piece::known`]. `occlude` is asked for shadow intervals on visible spans before they are
-    /// shaded, so that the borders of shadows have as exact a coverage as those of faces.
+    /// Tells which of `sources`, point lamps and suns, each by a number of its own (0 to 63; others are ignored),
+    /// reach what is seen: [`light::Piece::known`]. `occlude` is asked for shadow intervals on visible spans before
+    /// they are shaded, so that the borders of shadows have as exact a coverage as those of faces.
     ///
-    /// Asked about are opaque faces where they show at least half a pixel wide on a line ([`Self::cut_from`]); once for each source, and
-    /// two to four times more where its light begins or ends there. Nothing is known of what is
-    /// narrower, of veils, and of what `occlude` does not tell. Without sources nothing is asked.
+    /// Asked about are opaque faces where they show at least half a pixel wide on a line ([`Self::cut_from`], to be
+    /// said after this); once for each source, and two to four times more where its light begins or ends there.
+    /// Nothing is known of what is narrower, of veils, and of what `occlude` does not tell. Without sources nothing
+    /// is asked.
     #[must_use]
     pub fn with_shadows(mut self, sources: Vec<(u32, PointSource)>, occlude: Arc<dyn Occlude>) -> Self {
         let bit = |(number, source)| 1u64.checked_shl(number).map(|bit| (bit, source));
