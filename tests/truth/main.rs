@@ -2,6 +2,7 @@
 
 mod agreement;
 mod cie171;
+mod cie171_area;
 mod cie171_glass;
 mod determinism;
 mod furnace;

@@ -78,7 +78,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let mut seconds = Timings::default();
     let scene = seconds.time("load", || load(args.view.scene.as_deref()))?;
     let plan = Plan::new(&scene, &args.view)?;
-    let layers = if args.layers { scene.lights.len() as u64 + 4 } else { 1 };
+    let layers = if args.layers { (scene.lights.len() + scene.area_lights.len()) as u64 + 4 } else { 1 };
     let pixels = plan.region.columns.len() as u64 * plan.region.rows.len() as u64;
     if pixels.saturating_mul(layers) > MOST_PIXELS {
         return Err(Error::Usage(format!(

@@ -112,6 +112,12 @@ pub const KNOBS: &[Knob] = &[
         doc: "shadow rays over the sun's disc; 1 = its centre, i.e. no penumbra",
     },
     Knob {
+        name: "lamp.samples",
+        domain: Domain::Integer(1, 4096),
+        presets: ["1", "16", "256"],
+        doc: "shadow rays over lamps with an extent; 1 = their middle, i.e. no penumbra; 4, 16, 64, 256 leave 14, 3.1, 1.1, 0.3 % of the whole lamp as noise in the penumbra of a straight edge, none elsewhere; time grows with it",
+    },
+    Knob {
         name: "sky.model",
         domain: Domain::Choice(&["scene", "clear", "overcast", "uniform", "none"]),
         presets: ["scene"; 3],

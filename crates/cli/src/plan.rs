@@ -112,7 +112,7 @@ impl Contents {
             stored_triangles: geometry.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
             instances: geometry.instances.len(),
             materials: scene.materials.len(),
-            lights: scene.lights.len(),
+            lights: scene.lights.len() + scene.area_lights.len(),
             solids: scene.solids.len(),
             cut_out_triangles: geometry
                 .instances
@@ -233,9 +233,17 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
             format!("{} rays a place", settings.choice("sky.rays")),
         ),
     };
-    let lamps = match scene.lights.len() {
-        0 => stage("illuminate", "", "no luminaires: the scene has none".to_owned()),
-        n => stage("illuminate", "luminaires", format!("{n} in the scene")),
+    let lamps = match (scene.lights.len(), scene.area_lights.len()) {
+        (0, 0) => stage("illuminate", "", "no luminaires: the scene has none".to_owned()),
+        (n, 0) => stage("illuminate", "luminaires", format!("{n} in the scene")),
+        (n, areas) => stage(
+            "illuminate",
+            "luminaires",
+            format!(
+                "{n} points and {areas} areas in the scene; {} shadow rays to each area",
+                settings.choice("lamp.samples")
+            ),
+        ),
     };
     let lit = !(sun.answer.is_empty() && sky.answer.is_empty() && lamps.answer.is_empty());
     let occlude = match (settings.choice("shadows"), lit) {

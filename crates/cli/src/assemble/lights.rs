@@ -1,7 +1,7 @@
 //! Lights of the scene → sources of the pipeline.
 
 use glam::Vec3;
-use light::{Geometry, Luminaire, PointSource, Spectrum};
+use light::{AreaLight, AreaShape, Geometry, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
 use sky::{Description, Dome, Pattern, Sun, atmosphere};
 
@@ -9,7 +9,7 @@ use crate::knobs::Settings;
 use crate::pipeline::Source;
 use crate::plan;
 
-/// Sun, sky and luminaires, in this order; what the scene lacks is left out.
+/// Sun, sky, luminaires and luminous areas, in this order; what the scene lacks is left out.
 pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
     let mut sources = Vec::new();
     sources.extend(sun(scene, settings));
@@ -25,7 +25,34 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
         beam: true,
         point: Some(PointSource::At(light.position)),
     }));
+    sources.extend(scene.area_lights.iter().map(|lamp| Source {
+        name: lamp.name.clone(),
+        light: Box::new(area(lamp, settings)),
+        beam: true,
+        point: None,
+    }));
     sources
+}
+
+/// A lamp with an extent.
+fn area(lamp: &scene::AreaLight, settings: &Settings) -> AreaLight {
+    let shape = match lamp.shape {
+        scene::AreaShape::Rectangle { size: [width, height] } => {
+            // u × v = Y × X = −Z: it shines along the axis.
+            let frame = lamp.world_from_light;
+            AreaShape::Rectangle {
+                half_u: (frame.y_axis * (0.5 * height)).as_vec3(),
+                half_v: (frame.x_axis * (0.5 * width)).as_vec3(),
+            }
+        }
+        scene::AreaShape::Sphere { radius } => AreaShape::Sphere { radius: radius as f32 },
+    };
+    AreaLight {
+        shape,
+        centre: lamp.position.as_vec3(),
+        radiance: colour(&lamp.spectrum) * lamp.luminance as f32,
+        samples: settings.integer("lamp.samples"),
+    }
 }
 
 /// A spectrum of luminance 1.
