@@ -233,18 +233,7 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
             format!("{} rays a place", settings.choice("sky.rays")),
         ),
     };
-    let lamps = match (scene.lights.len(), scene.area_lights.len()) {
-        (0, 0) => stage("illuminate", "", "no luminaires: the scene has none".to_owned()),
-        (n, 0) => stage("illuminate", "luminaires", format!("{n} in the scene")),
-        (n, areas) => stage(
-            "illuminate",
-            "luminaires",
-            format!(
-                "{n} points and {areas} areas in the scene; {} shadow rays to each area",
-                settings.choice("lamp.samples")
-            ),
-        ),
-    };
+    let lamps = lamps(scene, settings);
     let lit = !(sun.answer.is_empty() && sky.answer.is_empty() && lamps.answer.is_empty());
     let occlude = match (settings.choice("shadows"), lit) {
         (_, false) => stage("occlude", "", "no shadows: there is no light".to_owned()),
@@ -260,6 +249,22 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
         stages.push(stage("all three", "", format!("no {what}: the scene has {chapter}")));
     }
     stages
+}
+
+/// Who lights from lamps.
+fn lamps(scene: &Scene, settings: &Settings) -> Stage {
+    let (answer, why) = match (scene.lights.len(), scene.area_lights.len()) {
+        (0, 0) => ("", "no luminaires: the scene has none".to_owned()),
+        (n, 0) => ("luminaires", format!("{n} in the scene")),
+        (n, areas) => {
+            let rays = settings.choice("lamp.samples");
+            (
+                "luminaires",
+                format!("{n} points and {areas} areas in the scene; {rays} shadow rays to each area"),
+            )
+        }
+    };
+    Stage { question: "illuminate", answer: answer.to_owned(), why }
 }
 
 impl fmt::Display for Plan {
