@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const CHAPTERS: &[&str] = &["scanline", "raytrace", "radiosity", "water", "sky", "trees"];
-const OURS: &[&str] = &["light", "scene", "scanline", "raytrace", "radiosity", "water", "sky", "trees", "keikan"];
+const OURS: &[&str] =
+    &["light", "scene", "scanline", "raytrace", "radiosity", "water", "sky", "trees", "keikan"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -35,7 +35,8 @@ fn run(name: String, knobs: &[(&str, &str)]) -> Run {
 /// √mean (a − b)² over the pixels that are `edges`, relative to the mean of b over all.
 fn rmse(a: &[f32], b: &[f32], edges: &[bool]) -> f64 {
     let mean = b.iter().map(|&b| f64::from(b)).sum::<f64>() / b.len() as f64;
-    let squares: Vec<f64> = (0..a.len()).filter(|&i| edges[i]).map(|i| f64::from(a[i] - b[i]).powi(2)).collect();
+    let squares: Vec<f64> =
+        (0..a.len()).filter(|&i| edges[i]).map(|i| f64::from(a[i] - b[i]).powi(2)).collect();
     (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt() / mean
 }
 
@@ -72,7 +73,10 @@ pub(crate) fn table() {
     }
     let share = edges.iter().filter(|&&e| e).count() as f64 / edges.len() as f64;
     println!("\nedges of the park, {} x {}, {:.0} % of pixels are edges", SIZE.0, SIZE.1, 100.0 * share);
-    println!("(reference: 4096 rays a pixel, {:.1} s; its own noise at edges is about 1/4096^0.75 = 0.2 %)", reference.seconds);
+    println!(
+        "(reference: 4096 rays a pixel, {:.1} s; its own noise at edges is about 1/4096^0.75 = 0.2 %)",
+        reference.seconds
+    );
     println!("{:<22} {:>9} {:>16} {:>16}", "method", "seconds", "RMSE at edges", "RMSE everywhere");
     let all = vec![true; edges.len()];
     for run in runs {

@@ -10,7 +10,8 @@ mod scaling;
 mod table_2_1;
 
 fn main() {
-    let tables: [(&str, fn()); 3] = [("edges", edges::table), ("scaling", scaling::table), ("table-2-1", table_2_1::table)];
+    let tables: [(&str, fn()); 3] =
+        [("edges", edges::table), ("scaling", scaling::table), ("table-2-1", table_2_1::table)];
     // Cargo adds `--bench`.
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     for (name, table) in tables {

@@ -49,7 +49,10 @@ fn terrain(triangles: usize) -> Geometry {
     };
     let triangles = (0..cells).flat_map(|j| (0..cells).flat_map(move |i| quad(i, j))).collect();
     let mesh = Mesh { positions, triangles, ..Mesh::default() };
-    Geometry { meshes: vec![mesh], instances: vec![Instance { mesh: 0, world_from_mesh: DAffine3::IDENTITY }] }
+    Geometry {
+        meshes: vec![mesh],
+        instances: vec![Instance { mesh: 0, world_from_mesh: DAffine3::IDENTITY }],
+    }
 }
 
 pub(crate) fn table() {
@@ -58,7 +61,10 @@ pub(crate) fn table() {
         sizes.push(10_000_000);
     }
     println!("\nterrain, 1920 x 1080, 4 sub-scanlines, one shadow ray a piece");
-    println!("{:>10} {:>10} {:>10} {:>12} {:>10}", "triangles", "assemble s", "render s", "pieces", "peak MiB");
+    println!(
+        "{:>10} {:>10} {:>10} {:>12} {:>10}",
+        "triangles", "assemble s", "render s", "pieces", "peak MiB"
+    );
     for size in sizes {
         let folder = std::path::Path::new(".");
         let mut scene = scene::parse(VIEW, folder, std::path::Path::new("terrain")).expect("a sound scene");

@@ -12,7 +12,8 @@ const SAMPLES: u32 = 256;
 /// Share of each face (instance, triangle) in each pixel.
 fn shares(visibility: &str) -> Vec<BTreeMap<(u32, u32), f64>> {
     let samples = SAMPLES.to_string();
-    let set = [("visibility", visibility), ("samples", &samples), ("sub-scanlines", "16"), ("sky.model", "none")];
+    let set =
+        [("visibility", visibility), ("samples", &samples), ("sub-scanlines", "16"), ("sky.model", "none")];
     let (_, pipeline) = pipeline(PARK, SIZE, &set);
     let mut shares = vec![BTreeMap::new(); (SIZE.0 * SIZE.1) as usize];
     pipeline.see.see(0..SIZE.1, 0..SIZE.0, &mut |row, pieces| {
@@ -48,5 +49,7 @@ fn every_share_that_differs_is_explained() {
             assert!(difference <= allowed, "pixel {at:?}, face {face:?}: {} {}", of(lines), of(rays));
         }
     }
-    println!("{compared} shares, {differ} differ by 0.001 or more, {worst:.4} at most ({allowed:.4} is explained)");
+    println!(
+        "{compared} shares, {differ} differ by 0.001 or more, {worst:.4} at most ({allowed:.4} is explained)"
+    );
 }

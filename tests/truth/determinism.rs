@@ -35,7 +35,11 @@ fn a_region_is_a_part_of_the_picture() {
         let part = pipeline.render(&region, false, &Monitor::default()).unwrap();
         for row in 0..43 {
             let from_whole = &whole.layers[0].pixels[(row + 5) * 97 + 13..][..57];
-            assert_eq!(bits(from_whole), bits(&part.layers[0].pixels[row * 57..][..57]), "{visibility}, row {row}");
+            assert_eq!(
+                bits(from_whole),
+                bits(&part.layers[0].pixels[row * 57..][..57]),
+                "{visibility}, row {row}"
+            );
         }
     }
 }

@@ -44,7 +44,10 @@ fn load(path: Option<&Path>) -> Result<Scene, Error> {
 
 fn plan(args: &args::PlanArgs, json: bool) -> Result<(), Error> {
     let scene = load(args.view.scene.as_deref())?;
-    let plan = Plan::new(&scene, &args.view)?;
+    let mut plan = Plan::new(&scene, &args.view)?;
+    if !scene.solids.is_empty() {
+        plan.share_of_rays = Some(assemble::assemble(&plan, &scene)?.share_of_rays());
+    }
     say(&if json { pretty(&plan) } else { plan.to_string() })
 }
 

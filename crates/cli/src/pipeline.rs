@@ -26,6 +26,9 @@ pub struct Source {
     pub point: Option<PointSource>,
 }
 
+/// A number that grows while a picture is made.
+pub type Count = Box<dyn Fn() -> u64 + Send + Sync>;
+
 /// How far mirrored and refracted rays are followed.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
@@ -41,6 +44,8 @@ pub struct Pipeline {
     pub view: View,
     /// Which pieces of surface show.
     pub see: Box<dyn See>,
+    /// How many pixels have needed a ray to see what shows in them, so far; none where no body asks for one.
+    pub needed_rays: Option<Count>,
     /// What a further ray meets.
     pub nearest: Arc<dyn Nearest>,
     /// By material index.
@@ -167,6 +172,19 @@ impl Pipeline {
                 *pixel += around.background(&self.view.ray(at), Path::EYE) * open;
             }
         }
+    }
+
+    /// Looks at the whole picture without shading it: the share of its pixels that need a ray to see what shows
+    /// in them, within \[0, 1\].
+    pub fn share_of_rays(&self) -> f64 {
+        let Some(count) = &self.needed_rays else { return 0.0 };
+        let before = count();
+        let bands = self.view.height.div_ceil(BAND);
+        (0..bands).into_par_iter().for_each(|band| {
+            let rows = band * BAND..((band + 1) * BAND).min(self.view.height);
+            self.see.see(rows, 0..self.view.width, &mut |_, _| {});
+        });
+        (count() - before) as f64 / (f64::from(self.view.width) * f64::from(self.view.height))
     }
 
     /// Irradiance on the plane of `place` by each source \[W m⁻² nm⁻¹\], in the order of `sources`.

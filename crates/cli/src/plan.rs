@@ -31,6 +31,8 @@ pub struct Plan {
     pub preset: Preset,
     /// What the scene holds.
     pub contents: Contents,
+    /// Share of the pixels that need a ray to see a curved solid, where that has been counted.
+    pub share_of_rays: Option<f64>,
     /// Which stages run, in the order light takes them, and which do not.
     pub stages: Vec<Stage>,
     /// Every knob.
@@ -92,6 +94,7 @@ impl Plan {
             height,
             region: region(args.region, width, height)?,
             preset: args.preset,
+            share_of_rays: None,
             stages: stages(scene, &settings, contents),
             contents,
             settings,
@@ -283,6 +286,9 @@ impl fmt::Display for Plan {
         if (self.region.columns.len(), self.region.rows.len()) != (self.width as usize, self.height as usize)
         {
             writeln!(f, "columns {:?} and rows {:?} of them", self.region.columns, self.region.rows)?;
+        }
+        if let Some(share) = self.share_of_rays {
+            writeln!(f, "{:.2} % of the pixels need a ray to see a solid", 100.0 * share)?;
         }
         writeln!(f, "\nstages")?;
         for stage in &self.stages {

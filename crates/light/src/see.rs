@@ -40,6 +40,13 @@ pub trait See: Send + Sync {
     fn see(&self, rows: Range<u32>, columns: Range<u32>, receive: &mut dyn FnMut(u32, &mut Vec<Piece>));
 }
 
+/// A shared eye is an eye.
+impl<T: See + ?Sized> See for Arc<T> {
+    fn see(&self, rows: Range<u32>, columns: Range<u32>, receive: &mut dyn FnMut(u32, &mut Vec<Piece>)) {
+        (**self).see(rows, columns, receive);
+    }
+}
+
 /// What does this ray meet first?
 ///
 /// Faces with an opacity of their own (alpha textures) are met where their opacity, read at the ray's

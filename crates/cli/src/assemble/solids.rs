@@ -9,11 +9,17 @@ use scene::{Scene, Solid, SolidNode, SolidShape};
 use super::materials;
 use crate::Error;
 
+/// Bodies and the shaders that they wear.
+pub(super) struct Dressed {
+    pub(super) solids: Solids,
+    pub(super) shaders: Vec<Box<dyn Shade>>,
+}
+
 /// The bodies of the scene, and the shaders that they need beyond those of the meshes; none without solids.
 ///
 /// A transparent material on a solid is always that of a body, never of a thin pane: solids wear shaders
 /// of their own, one for each material, after those of the meshes.
-pub(super) fn bodies(scene: &Scene) -> Result<Option<(Solids, Vec<Box<dyn Shade>>)>, Error> {
+pub(super) fn bodies(scene: &Scene) -> Result<Option<Dressed>, Error> {
     if scene.solids.is_empty() {
         return Ok(None);
     }
@@ -23,7 +29,7 @@ pub(super) fn bodies(scene: &Scene) -> Result<Option<(Solids, Vec<Box<dyn Shade>
     let solids = Solids::new(bodies, first).map_err(|fault| Error::Content(format!("[[solid]] {fault}")))?;
     let shaders =
         scene.materials.iter().map(|material| materials::shade_with(material, filled(material))).collect();
-    Ok(Some((solids, shaders)))
+    Ok(Some(Dressed { solids, shaders }))
 }
 
 fn body(scene: &Scene, solid: &Solid, offset: u32) -> Body {
