@@ -77,7 +77,7 @@ pub(crate) fn table() {
         "{:<7} {:<20} {:>9} {:>10} {:>8} {:>9}",
         "lights", "case", "seconds", "/ case II", "thesis", "RMSE"
     );
-    for lights in 1..=3 {
+    for lights in [3, 2, 1] {
         let scene = scene(lights);
         let make = |knobs: &Knobs| build(&scene, SIZE, knobs).1;
         let converged =
@@ -98,7 +98,7 @@ pub(crate) fn table() {
         for n in ["1", "2", "8", "16"] {
             report(lights, &format!("scanline {n}"), &make(&[("sub-scanlines", n)]), &converged);
         }
-        for n in ["1", "4", "16", "64", "256"] {
+        for n in ["1", "4", "16", "64"] {
             let rays = make(&[("visibility", "rays"), ("shading", "span"), ("samples", n)]);
             report(lights, &format!("rays {n}"), &rays, &converged);
         }

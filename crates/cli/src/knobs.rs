@@ -108,7 +108,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "sun.samples",
         domain: Domain::Integer(1, 4096),
-        presets: ["1", "4", "64"],
+        presets: ["1", "8", "64"],
         doc: "shadow rays over the sun's disc; 1 = its centre, i.e. no penumbra",
     },
     Knob {
@@ -126,8 +126,8 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "sky.rays",
         domain: Domain::Integer(1, 65536),
-        presets: ["16", "48", "512"],
-        doc: "rays that ask how much of the sky a place sees; time grows with it; 16, 48, 256 leave 8, 3.4, 0.9 % noise in half-hidden places",
+        presets: ["16", "64", "512"],
+        doc: "rays that ask how much of the sky a place sees; time grows with it; 16, 64, 256 leave 8, 2.7, 0.9 % noise in half-hidden places",
     },
     Knob {
         name: "sky.albedo",

@@ -469,3 +469,38 @@ fn what_is_known_of_the_light_on_faces_stays_known_beside_bodies() {
         assert!(pieces.iter().all(|(_, p)| p.hit.instance == 0 || p.known == Known::default()));
     }
 }
+
+#[test]
+fn traced_bodies_are_shaded_on_every_line_and_show_as_much() {
+    const SIZE: u32 = 24;
+    let balls = Balls::new(&[(DVec3::new(0.3, -0.4, -20.0), 7.2), (DVec3::new(6.0, 5.0, -30.0), 4.0)]);
+    for rule in RULES {
+        let plain = localised(&Geometry::default(), flat(SIZE), knobs(rule, 4), balls.clone());
+        let traced = localised(&Geometry::default(), flat(SIZE), knobs(rule, 4), balls.clone())
+            .with_traced(vec![true]);
+        let (plain, traced) = (picture(&plain, 0..SIZE, 0..SIZE), picture(&traced, 0..SIZE, 0..SIZE));
+        totals_at_most_one(&traced, SIZE);
+        for body in [FIRST, FIRST + 1] {
+            for (a, b) in shares(&plain, SIZE, body).iter().zip(shares(&traced, SIZE, body)) {
+                // The same area in up to 5 · 2⁵ parts, each rounded to f32.
+                assert!((a - b).abs() <= 200.0 * f64::from(f32::EPSILON), "{rule:?}: {a} {b}");
+            }
+        }
+        assert!(traced.len() > 3 * plain.len(), "{rule:?}: {} from {}", traced.len(), plain.len());
+        let mut inside = 0;
+        for (row, piece) in &traced {
+            let at = piece.hit.place.position;
+            // Parallel, a metre a pixel: the hit lies in its own pixel to the rounding of f32, or, where a leaning
+            // border alone brings the body in, at the nearest place on a line that meets it.
+            let (x, y) = (f64::from(at.x) + 12.0, 12.0 - f64::from(at.y));
+            let off = |t: f64, i: u32| (t - f64::from(i) - 0.5).abs();
+            assert!(
+                off(x, piece.column) < 1.5 && off(y, *row) < 0.5 + 1e-5,
+                "{at} in {}, {row}",
+                piece.column
+            );
+            inside += u32::from(off(x, piece.column) < 0.5 + 1e-5);
+        }
+        assert!(inside > traced.len() as u32 * 9 / 10, "{rule:?}: {inside} of {}", traced.len());
+    }
+}

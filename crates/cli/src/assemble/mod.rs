@@ -85,7 +85,7 @@ fn see(
             match &traced.solids {
                 Some([solids, _]) => {
                     let bodies = Arc::clone(solids) as Arc<dyn Bodies>;
-                    let local = Arc::new(Localised::new(scanline, bodies));
+                    let local = Arc::new(Localised::new(scanline, bodies).with_traced(solids::traced(scene)));
                     let count = Arc::clone(&local);
                     (Box::new(local), Some(Box::new(move || count.needed_rays())))
                 }

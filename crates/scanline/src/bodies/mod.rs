@@ -44,6 +44,8 @@ pub struct Localised {
     hulls: Vec<Projected>,
     /// Number that body 0 goes by: that of all faces.
     base: u32,
+    /// By material: whether it is shaded on every line.
+    traced: Vec<bool>,
     rays: AtomicU64,
     pixels: AtomicU64,
 }
@@ -56,7 +58,21 @@ impl Localised {
         let room = |hull: &&light::Hull| base.checked_add(hull.body).is_some();
         let project = |hull| Projected::new(&scanline.view, hull);
         let hulls = bodies.hulls().iter().filter(room).filter_map(project).collect();
-        Self { scanline, bodies, hulls, base, rays: AtomicU64::new(0), pixels: AtomicU64::new(0) }
+        Self {
+            scanline,
+            bodies,
+            hulls,
+            base,
+            traced: Vec::new(),
+            rays: AtomicU64::new(0),
+            pixels: AtomicU64::new(0),
+        }
+    }
+
+    /// Bodies of these materials (true at their index) are shaded once for each line of a pixel instead of once: mirrors
+    /// and clear bodies, whose picture of the scene has edges of its own.
+    pub fn with_traced(self, traced: Vec<bool>) -> Self {
+        Self { traced, ..self }
     }
 
     /// The scanline that sees the faces.

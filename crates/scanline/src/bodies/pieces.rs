@@ -174,12 +174,65 @@ impl Localised {
                 }
                 None => self.body_hit([column, row], cover, found, sight),
             };
-            if let Some(hit) = hit {
-                let known = pixel.table.known(cover.known);
-                pieces.push(Piece { column, share: cover.share as f32, hit, known });
+            let Some(hit) = hit else { continue };
+            let known = pixel.table.known(cover.known);
+            if cover.face >= self.base && self.is_traced(hit.material) {
+                let spread = self.spread([column, row], cover, found, sight);
+                if !spread.is_empty() {
+                    let piece =
+                        |(part, hit)| Piece { column, share: (cover.share * part) as f32, hit, known };
+                    pieces.extend(spread.into_iter().map(piece));
+                    continue;
+                }
             }
+            pieces.push(Piece { column, share: cover.share as f32, hit, known });
         }
         at_most_one(&mut pieces[first..]);
+    }
+
+    fn is_traced(&self, material: u32) -> bool {
+        self.traced.get(material as usize).copied().unwrap_or(false)
+    }
+
+    /// Hits on what shows of a body in a pixel, one for each line, with their parts of its share, which sum to
+    /// 1. What a mirror or a clear body shows changes as fast as the scene does: each line looks at another
+    /// place of its covered length, by van der Corput's sequence, so that the places spread over the pixel.
+    fn spread(
+        &self,
+        [column, row]: [u32; 2],
+        cover: &Cover,
+        found: &[Found],
+        sight: &mut Sight,
+    ) -> Vec<(f64, Hit)> {
+        let body = cover.face - self.base;
+        let left = f64::from(column + self.scanline.margin);
+        let mut hits = Vec::new();
+        for (number, found) in (0u32..).zip(found) {
+            let place = f64::from(number.reverse_bits()) / 4_294_967_296.0 + 1.0 / 64.0;
+            for run in found.runs.iter().filter(|run| run.body == body) {
+                let [l, r] = [run.x[0].max(left), run.x[1].min(left + 1.0)];
+                let at = DVec2::new(l + (r - l) * place.fract(), found.y);
+                if r > l
+                    && let Some((distance, _)) = sight.meet(body, at.x, at.y)
+                {
+                    let mut hit = self.hit_at(body, at, distance);
+                    hit.place.seed = seed(column, row, cover.face) ^ number.wrapping_mul(0x9e37_79b9);
+                    hits.push(((r - l) * found.weight, hit));
+                }
+            }
+        }
+        let all: f64 = hits.iter().map(|(part, _)| part).sum();
+        hits.iter_mut().for_each(|(part, _)| *part /= all);
+        hits
+    }
+
+    /// The hit on a body that is met at `distance` along the line through `at`.
+    fn hit_at(&self, body: u32, at: DVec2, distance: f64) -> Hit {
+        let view = &self.scanline.view;
+        let line = view.line(at);
+        let depth = -distance * line.1.dot(view.world_from_view.z_axis);
+        let pixel_width = view.pixel_width(depth.max(view.near)) as f32;
+        self.bodies.hit(body, line, distance, &view.ray(at), pixel_width)
     }
 
     /// The hit at the centroid of what shows of a body; where that is not on the body, at the nearest place on a line
@@ -205,14 +258,10 @@ impl Localised {
         });
         places.extend(on_lines);
         places[1..].sort_by(|a, b| a.distance_squared(centroid).total_cmp(&b.distance_squared(centroid)));
-        let view = &self.scanline.view;
         let (at, distance) = places
             .into_iter()
             .find_map(|at| sight.meet(body, at.x, at.y).map(|(distance, _)| (at, distance)))?;
-        let line = view.line(at);
-        let depth = -distance * line.1.dot(view.world_from_view.z_axis);
-        let pixel_width = view.pixel_width(depth.max(view.near)) as f32;
-        let mut hit = self.bodies.hit(body, line, distance, &view.ray(at), pixel_width);
+        let mut hit = self.hit_at(body, at, distance);
         hit.place.seed = seed(column, row, cover.face);
         Some(hit)
     }
