@@ -194,8 +194,8 @@ impl Localised {
         self.traced.get(material as usize).copied().unwrap_or(false)
     }
 
-    /// Hits on what shows of a body in a pixel, one for each line, with their parts of its share, which sum to
-    /// 1. What a mirror or a clear body shows changes as fast as the scene does: each line looks at another
+    /// Hits on what shows of a body in a pixel, one for each line, with their parts of its share; the parts sum
+    /// to one. What a mirror or a clear body shows changes as fast as the scene does: each line looks at another
     /// place of its covered length, by van der Corput's sequence, so that the places spread over the pixel.
     fn spread(
         &self,
