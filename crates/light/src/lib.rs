@@ -34,7 +34,7 @@ mod mesh;
 mod occlude;
 mod ray;
 pub mod rounding;
-mod sampling;
+pub mod sampling;
 mod see;
 mod shade;
 mod spectrum;

@@ -7,13 +7,13 @@ use crate::{Occlude, Ray, Spectrum};
 /// A place for a point of the unit square that one seed and one purpose decide.
 ///
 /// `purpose` keeps sets apart that share a seed: those of two sources must not move together.
-pub(crate) fn shift(seed: u32, purpose: u32) -> [u32; 2] {
+pub fn shift(seed: u32, purpose: u32) -> [u32; 2] {
     let first = scramble(seed ^ purpose.wrapping_mul(0x9E37_79B9));
     [first, scramble(first ^ 0x85EB_CA6B)]
 }
 
 /// A bijection of the 32-bit numbers without visible pattern (the finaliser of MurmurHash3).
-pub(crate) fn scramble(mut x: u32) -> u32 {
+pub fn scramble(mut x: u32) -> u32 {
     x = (x ^ (x >> 16)).wrapping_mul(0x85EB_CA6B);
     x = (x ^ (x >> 13)).wrapping_mul(0xC2B2_AE35);
     x ^ (x >> 16)
@@ -24,14 +24,14 @@ pub(crate) fn scramble(mut x: u32) -> u32 {
 ///   ( i/count, i (√5 − 1)/2 ) mod 1
 ///
 /// One point in each of `count` columns, and the rows filled as evenly as any row of points can be.
-pub(crate) fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
+pub fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
     let column = ((u64::from(i) << 32) / u64::from(count.max(1))) as u32;
     let row = i.wrapping_mul(0x9E37_79B9);
     [column.wrapping_add(shift[0]), row.wrapping_add(shift[1])].map(|x| (x >> 8) as f32 / 16_777_216.0)
 }
 
 /// The point of the unit disc that belongs to a point of the unit square, areas kept.
-pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
+pub fn disc(at: [f32; 2]) -> [f32; 2] {
     let radius = at[0].sqrt();
     let (sin, cos) = (TAU * at[1]).sin_cos();
     [radius * cos, radius * sin]

@@ -1,41 +1,7 @@
-//! Sets of directions, stratified and decided by a seed, and their occlusion asked for in batches.
+//! Occlusion of directions asked for in batches.
 
-use std::f32::consts::TAU;
-
+pub(crate) use light::sampling::{disc, lattice, shift};
 use light::{Occlude, Ray, Spectrum};
-
-/// A place for a point of the unit square that one seed and one purpose decide.
-///
-/// `purpose` keeps sets apart that share a seed (the sun's and the sky's must not move together).
-pub(crate) fn shift(seed: u32, purpose: u32) -> [u32; 2] {
-    let first = scramble(seed ^ purpose.wrapping_mul(0x9E37_79B9));
-    [first, scramble(first ^ 0x85EB_CA6B)]
-}
-
-/// A bijection of the 32-bit numbers without visible pattern (the finaliser of MurmurHash3).
-fn scramble(mut x: u32) -> u32 {
-    x = (x ^ (x >> 16)).wrapping_mul(0x85EB_CA6B);
-    x = (x ^ (x >> 13)).wrapping_mul(0xC2B2_AE35);
-    x ^ (x >> 16)
-}
-
-/// Point `i` of `count` of the golden lattice, moved by `shift` around the torus; each within \[0, 1).
-///
-///   ( i/count, i (√5 − 1)/2 ) mod 1
-///
-/// One point in each of `count` columns, and the rows filled as evenly as any row of points can be.
-pub(crate) fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
-    let column = ((u64::from(i) << 32) / u64::from(count.max(1))) as u32;
-    let row = i.wrapping_mul(0x9E37_79B9);
-    [column.wrapping_add(shift[0]), row.wrapping_add(shift[1])].map(|x| (x >> 8) as f32 / 16_777_216.0)
-}
-
-/// The point of the unit disc that belongs to a point of the unit square, areas kept.
-pub(crate) fn disc(at: [f32; 2]) -> [f32; 2] {
-    let radius = at[0].sqrt();
-    let (sin, cos) = (TAU * at[1]).sin_cos();
-    [radius * cos, radius * sin]
-}
 
 /// Rays asked for in one call to an occluder.
 const BATCH: usize = 64;
