@@ -60,7 +60,9 @@ pub(crate) fn table() {
     if std::env::var_os("KEIKAN_BENCH_LARGE").is_some() {
         sizes.push(10_000_000);
     }
-    println!("\nterrain, 1920 x 1080, normal preset: 8 lines, shadow intervals on long spans, else a ray a piece");
+    println!(
+        "\nterrain, 1920 x 1080, normal preset: 8 lines, shadow intervals on long spans, else a ray a piece"
+    );
     println!(
         "{:>10} {:>10} {:>10} {:>12} {:>10}",
         "triangles", "assemble s", "render s", "pieces", "peak MiB"
