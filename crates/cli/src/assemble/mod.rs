@@ -48,6 +48,7 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
         limits: Limits {
             depth: settings.integer("ray-depth") as u8,
             share: settings.number("ray-share") as f32,
+            alike: settings.number("body.tolerance") as f32,
         },
     })
 }
@@ -85,7 +86,8 @@ fn see(
             match &traced.solids {
                 Some([solids, _]) => {
                     let bodies = Arc::clone(solids) as Arc<dyn Bodies>;
-                    let local = Arc::new(Localised::new(scanline, bodies).with_traced(solids::traced(scene)));
+                    let samples = settings.integer("body.samples");
+                    let local = Arc::new(Localised::new(scanline, bodies).with_samples(samples));
                     let count = Arc::clone(&local);
                     (Box::new(local), Some(Box::new(move || count.needed_rays())))
                 }

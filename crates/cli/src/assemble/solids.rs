@@ -32,13 +32,6 @@ pub(super) fn bodies(scene: &Scene) -> Result<Option<Dressed>, Error> {
     Ok(Some(Dressed { solids, shaders }))
 }
 
-/// By the index that bodies' materials have: whether what they show is traced.
-pub(super) fn traced(scene: &Scene) -> Vec<bool> {
-    let shows = |material| materials::mirrors(material) || filled(material).is_some();
-    // The meshes' materials come first; faces are shaded once a pixel all the same.
-    std::iter::repeat_n(false, scene.materials.len()).chain(scene.materials.iter().map(shows)).collect()
-}
-
 fn body(scene: &Scene, solid: &Solid, offset: u32) -> Body {
     let medium = scene.materials.get(outermost(&solid.node) as usize).and_then(filled).map(Arc::new);
     Body { node: node(&solid.node, offset), medium }

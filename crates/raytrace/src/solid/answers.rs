@@ -55,7 +55,7 @@ impl Solids {
         found
     }
 
-    fn hit_at(&self, body: u32, wall: &Wall, line: (DVec3, DVec3), ray: &Ray) -> Hit {
+    fn hit_at(&self, body: u32, wall: &Wall, line: (DVec3, DVec3), ray: &Ray, width: f32) -> Hit {
         let compound = &self.bodies[body as usize].compound;
         let crossing = compound.crossing(wall, line);
         let position = line.0 + line.1 * crossing.t;
@@ -79,6 +79,8 @@ impl Solids {
             distance: crossing.t as f32,
             uv: Vec2::ZERO,
             tangent: Vec3::ZERO,
+            width,
+            curvature: compound.members[wall.member as usize].curvature(wall.end.face, position) as f32,
             uv_width: 0.0,
             vertex_colour: Vec3::ONE,
             instance: self.first_instance + body,
@@ -104,7 +106,7 @@ impl Bodies for Solids {
         Some(self.first(body, line, after, f64::INFINITY)?.end.t)
     }
 
-    fn hit(&self, body: u32, line: (DVec3, DVec3), distance: f64, ray: &Ray, _pixel_width: f32) -> Hit {
+    fn hit(&self, body: u32, line: (DVec3, DVec3), distance: f64, ray: &Ray, pixel_width: f32) -> Hit {
         let mut nearest: Option<Wall> = None;
         if let Some(ready) = self.bodies.get(body as usize) {
             let gap = |wall: &Wall| (wall.end.t - distance).abs();
@@ -116,7 +118,7 @@ impl Bodies for Solids {
             });
         }
         match nearest {
-            Some(wall) => self.hit_at(body, &wall, line, ray),
+            Some(wall) => self.hit_at(body, &wall, line, ray, pixel_width),
             None => self.nowhere(body, line, distance, ray),
         }
     }
@@ -135,6 +137,8 @@ impl Solids {
             distance: distance as f32,
             uv: Vec2::ZERO,
             tangent: Vec3::ZERO,
+            width: 0.0,
+            curvature: 0.0,
             uv_width: 0.0,
             vertex_colour: Vec3::ONE,
             instance: self.first_instance.saturating_add(body),
@@ -165,7 +169,7 @@ impl Nearest for Solids {
             wall.end.t
         });
         let (body, wall) = found?;
-        Some(self.hit_at(body, &wall, line, ray))
+        Some(self.hit_at(body, &wall, line, ray, 0.0))
     }
 }
 

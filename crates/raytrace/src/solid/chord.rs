@@ -171,6 +171,15 @@ impl Surface {
         chord.bend(&quadric, rising)
     }
 
+    /// Whether a face is plane.
+    pub(crate) fn is_flat(&self, face: u32) -> bool {
+        match self {
+            Self::Ball => false,
+            Self::Frustum { .. } => face != 0,
+            Self::Planes(_) => true,
+        }
+    }
+
     /// Some vector along the outward normal of a face at a point of it.
     pub(crate) fn gradient(&self, face: u32, p: DVec3) -> DVec3 {
         match (self, face) {

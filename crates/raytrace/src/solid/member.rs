@@ -1,5 +1,7 @@
 //! One placed convex solid, made ready for lines.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::{
@@ -155,6 +157,25 @@ impl Member {
         let gradient = self.surface.gradient(face, self.local(point));
         // Normals transform by the inverse transpose.
         (self.solid_from_world.transpose() * gradient).normalize_or_zero()
+    }
+}
+
+impl Member {
+    /// How fast the normal of a face turns along it at a point of it, at most \[rad/m\]; 0 for flat ones.
+    ///
+    /// By differences over a thousandth of the solid's size, in two directions along the face and between them.
+    pub(crate) fn curvature(&self, face: u32, point: DVec3) -> f64 {
+        if self.surface.is_flat(face) {
+            return 0.0;
+        }
+        let normal = self.normal(face, point);
+        let step = 1e-3 / self.per_metre.max_element();
+        let (u, v) = normal.any_orthonormal_pair();
+        let turned = |way: DVec3| {
+            let turned = self.normal(face, point + way * step).distance(normal) / step;
+            if turned.is_finite() { turned } else { 0.0 }
+        };
+        [u, v, (u + v) * FRAC_1_SQRT_2, (u - v) * FRAC_1_SQRT_2].into_iter().map(turned).fold(0.0, f64::max)
     }
 }
 

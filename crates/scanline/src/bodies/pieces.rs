@@ -27,6 +27,11 @@ struct Found {
     runs: Vec<Run>,
 }
 
+/// Van der Corput's sequence in base 2, within \[0, 1).
+fn inverse(number: u32) -> f64 {
+    f64::from(number.reverse_bits()) / 4_294_967_296.0
+}
+
 /// Where to look for bodies.
 struct Place<'a> {
     hulls: Vec<&'a Projected>,
@@ -176,27 +181,27 @@ impl Localised {
             };
             let Some(hit) = hit else { continue };
             let known = pixel.table.known(cover.known);
-            if cover.face >= self.base && self.is_traced(hit.material) {
-                let spread = self.spread([column, row], cover, found, sight);
-                if !spread.is_empty() {
-                    let piece =
-                        |(part, hit)| Piece { column, share: (cover.share * part) as f32, hit, known };
-                    pieces.extend(spread.into_iter().map(piece));
-                    continue;
-                }
+            let spread = if cover.face >= self.base && self.samples > 1 {
+                self.spread([column, row], cover, found, sight)
+            } else {
+                Vec::new()
+            };
+            if spread.is_empty() {
+                pieces.push(Piece { column, share: cover.share as f32, hit, known, samples: 1 });
             }
-            pieces.push(Piece { column, share: cover.share as f32, hit, known });
+            for (number, (part, hit)) in (0..).zip(&spread) {
+                let samples = if number == 0 { spread.len() as u16 } else { 1 };
+                pieces.push(Piece { column, share: (cover.share * part) as f32, hit: *hit, known, samples });
+            }
         }
         at_most_one(&mut pieces[first..]);
     }
 
-    fn is_traced(&self, material: u32) -> bool {
-        self.traced.get(material as usize).copied().unwrap_or(false)
-    }
-
-    /// Hits on what shows of a body in a pixel, one for each line, with their parts of its share; the parts sum
-    /// to one. What a mirror or a clear body shows changes as fast as the scene does: each line looks at another
-    /// place of its covered length, by van der Corput's sequence, so that the places spread over the pixel.
+    /// Hits on what shows of a body in a pixel, several in each line's strip, with their parts of its share; the parts
+    /// sum to one. What bodies show has edges of its own: creases, shadows, all that mirrors and glass show.
+    ///
+    /// The hits are Hammersley's points of all parts of strips, turned across the pixel by the pixel's own number; each
+    /// round takes one part of every strip, another one in each, so that rounds are spread evenly as well.
     fn spread(
         &self,
         [column, row]: [u32; 2],
@@ -206,24 +211,61 @@ impl Localised {
     ) -> Vec<(f64, Hit)> {
         let body = cover.face - self.base;
         let left = f64::from(column + self.scanline.margin);
+        let strips: Vec<(&Found, &Run)> = found
+            .iter()
+            .flat_map(|found| found.runs.iter().map(move |run| (found, run)))
+            .filter(|(_, run)| run.body == body && run.x[0].max(left) < run.x[1].min(left + 1.0))
+            .collect();
+        let rounds = self.samples.div_ceil(strips.len().max(1) as u32).max(1).next_power_of_two();
+        let turn = f64::from(seed(column, row, cover.face)) / 4_294_967_296.0;
         let mut hits = Vec::new();
-        for (number, found) in (0u32..).zip(found) {
-            let place = f64::from(number.reverse_bits()) / 4_294_967_296.0 + 1.0 / 64.0;
-            for run in found.runs.iter().filter(|run| run.body == body) {
-                let [l, r] = [run.x[0].max(left), run.x[1].min(left + 1.0)];
-                let at = DVec2::new(l + (r - l) * place.fract(), found.y);
-                if r > l
-                    && let Some((distance, _)) = sight.meet(body, at.x, at.y)
-                {
-                    let mut hit = self.hit_at(body, at, distance);
-                    hit.place.seed = seed(column, row, cover.face) ^ number.wrapping_mul(0x9e37_79b9);
-                    hits.push(((r - l) * found.weight, hit));
-                }
+        for round in 0..rounds {
+            for (number, (found, run)) in (0u32..).zip(&strips) {
+                let part = (round + number) % rounds;
+                let across = (inverse(part) + inverse(number) / f64::from(rounds) + turn).fract();
+                let along = (f64::from(part) + 0.5) / f64::from(rounds);
+                let Some((at, distance)) = self.sample(body, (found, run), left, [across, along], sight)
+                else {
+                    continue;
+                };
+                let width = run.x[1].min(left + 1.0) - run.x[0].max(left);
+                let mut hit = self.hit_at(body, at, distance);
+                hit.place.seed =
+                    seed(column, row, cover.face) ^ (hits.len() as u32).wrapping_mul(0x9e37_79b9);
+                hits.push((width * found.weight, hit));
             }
         }
         let all: f64 = hits.iter().map(|(part, _)| part).sum();
-        hits.iter_mut().for_each(|(part, _)| *part /= all);
+        let each = (hits.len() as f32).sqrt().recip();
+        hits.iter_mut().for_each(|(part, hit)| {
+            *part /= all;
+            hit.width *= each;
+        });
         hits
+    }
+
+    /// Where a body is met in a strip, at shares of the way across and along what shows of it in the pixel from `left`
+    /// on; on the line itself where it is not met off it.
+    fn sample(
+        &self,
+        body: u32,
+        (found, run): (&Found, &Run),
+        left: f64,
+        [across, along]: [f64; 2],
+        sight: &mut Sight,
+    ) -> Option<(DVec2, f64)> {
+        let inside = |[l, r]: [f64; 2], y: f64| {
+            let (l, r) = (l.max(left), r.min(left + 1.0));
+            (l < r).then(|| DVec2::new(l + (r - l) * across, y))
+        };
+        let height = if self.scanline.grid.rule == Rule::Exact { found.weight } else { 0.0 };
+        let border = |[top, bottom]: [f64; 2]| top + (bottom - top) * along;
+        let off = inside(run.borders.map(border), found.y + (along - 0.5) * height);
+        let places = [off, inside(run.x, found.y)];
+        places.into_iter().flatten().find_map(|at| {
+            let (distance, _) = sight.meet(body, at.x, at.y)?;
+            Some((at, distance))
+        })
     }
 
     /// The hit on a body that is met at `distance` along the line through `at`.
