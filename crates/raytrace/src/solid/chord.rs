@@ -43,8 +43,8 @@ pub(crate) enum Surface {
     Planes(Box<[Plane]>),
 }
 
-const BASE: Plane = Plane { normal: DVec3::NEG_Y, offset: 0.0 };
-const TOP: Plane = Plane { normal: DVec3::Y, offset: 1.0 };
+pub(crate) const BASE: Plane = Plane { normal: DVec3::NEG_Y, offset: 0.0 };
+pub(crate) const TOP: Plane = Plane { normal: DVec3::Y, offset: 1.0 };
 
 impl Chord {
     const WHOLE: Self = Self {

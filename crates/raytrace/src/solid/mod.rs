@@ -54,6 +54,8 @@ mod hull;
 mod member;
 mod node;
 pub mod reference;
+mod roots;
+mod section;
 mod shadow;
 
 use std::sync::Arc;
@@ -102,10 +104,8 @@ struct Ready {
     medium: Option<Arc<Medium>>,
     /// Empty for a body without points.
     bounds: Bounds,
-    /// The planes of each of its hulls.
-    shells: Vec<Box<[Plane]>>,
-    /// The planes of polyhedra within it that keep all light off.
-    cores: Vec<Box<[Plane]>>,
+    /// Members whose surfaces may cross.
+    pairs: Vec<(u32, u32)>,
 }
 
 /// Where a line enters or leaves a body.

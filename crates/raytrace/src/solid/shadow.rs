@@ -1,25 +1,71 @@
-//! The shadow of a convex polyhedron on a segment.
+//! The shadow of bodies on a segment, exactly.
 //!
-//! Seen from the source, the segment a b spans a plane fan. Its points are p + α (a − p) + β (b − p) for a
-//! lamp at p (α, β ≥ 0, α + β ≤ 1), a + β (b − a) + α w for a sun towards w (α ≥ 0, 0 ≤ β ≤ 1). The
-//! polyhedron's half-spaces are linear in (α, β), so what the fan has in common with it is a convex polygon,
-//! and its shadow on the segment is one interval, found from the polygon's corners: s = β / (α + β), or β.
+//! Seen from the source, the segment a b spans a plane *fan* of ways p(s) … source, p = a + s (b − a). A way is
+//! blocked if it meets a wall of the compound, as a ray would. That can only change at places that
+//! [`super::section`] knows; between neighbouring ones a single way tells for all. A place where it does change
+//! is where a stretch ends, once ways just before and just behind it have confirmed it; otherwise halving finds it.
+//!
+//! So what is dark is what rays say, and what cuts the members only decides where to look. A stretch's end is right
+//! to [`EXACT`] of the segment, or to the rounding of its points; where the shadow begins on the body itself, which
+//! stands on the segment or pierces it, to [`TOUCH`]. A piece of shadow or of light may be missed where it is
+//! shorter than 1e-6 of the body *and* the two borders are those of members that just touch or just cross there.
 
-use glam::{DVec2, DVec3};
-use light::PointSource;
+use glam::DVec3;
+use light::{PointSource, Stretch};
 
-use super::{boxes::Bounds, node::Plane};
+use super::{
+    Ready,
+    boxes::Bounds,
+    csg::Compound,
+    member::{Member, U},
+    section::{Section, Sheet, reaches},
+};
+
+/// Share of the segment to which its places are told apart.
+const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// A wall no farther than this from either end of a way, as a share of the coordinates, is the surface that
+/// the segment lies on, seen from its lit side, or the one that the lamp is set in. A place in f32 is 60 times
+/// less exact.
+const TOUCH: f64 = 1e-9;
 
 /// The fan of a source over a segment.
 pub(crate) struct Fan {
     source: PointSource,
-    a: DVec3,
-    b: DVec3,
+    pub(crate) a: DVec3,
+    pub(crate) b: DVec3,
+    /// Unit normal of its plane; none for a mere line.
+    pub(crate) normal: Option<DVec3>,
+    /// The largest coordinate.
+    size: f64,
 }
 
 impl Fan {
     pub(crate) fn new(source: &PointSource, a: DVec3, b: DVec3) -> Self {
-        Self { source: *source, a, b }
+        let (way, lamp) = match *source {
+            PointSource::At(lamp) => (lamp - a, lamp),
+            PointSource::Toward(way) => (way, DVec3::ZERO),
+        };
+        let normal = way.cross(b - a);
+        // Nearer to a line than this its plane would be made of rounding.
+        let flat = normal.length() > 1e-12 * way.length() * (b - a).length();
+        let size = a.abs().max(b.abs()).max(lamp.abs()).max_element();
+        Self { source: *source, a, b, normal: flat.then(|| normal.normalize()), size }
+    }
+
+    pub(crate) fn lamp(&self) -> Option<DVec3> {
+        match self.source {
+            PointSource::At(lamp) => Some(lamp),
+            PointSource::Toward(_) => None,
+        }
+    }
+
+    /// Direction towards the sun; 0 for a lamp.
+    pub(crate) fn sun(&self) -> DVec3 {
+        match self.source {
+            PointSource::At(_) => DVec3::ZERO,
+            PointSource::Toward(way) => way,
+        }
     }
 
     /// A box around all of it.
@@ -35,86 +81,156 @@ impl Fan {
         }
     }
 
-    /// What a convex polyhedron within `bounds`, larger than it is by a share `margin` of the coordinates
-    /// (negative: smaller), keeps the light off.
-    pub(crate) fn shadow(&self, planes: &[Plane], bounds: &Bounds, margin: f64) -> Shadow {
-        let reach = |p: DVec3| p.abs().max_element();
-        let size = reach(bounds.low).max(reach(bounds.high)).max(reach(self.a)).max(reach(self.b));
-        let (corner, u, v, lamp) = match self.source {
-            PointSource::At(p) => (p, self.a - p, self.b - p, reach(p)),
-            // Farther than the polyhedron from any point of the segment.
-            PointSource::Toward(way) => (self.a, way * 4.0 * size, self.b - self.a, 0.0),
-        };
-        let sun = matches!(self.source, PointSource::Toward(_));
-        let (mut polygon, mut kept) = (Vec::with_capacity(16), Vec::with_capacity(16));
-        polygon.extend([DVec2::ZERO, DVec2::X, DVec2::Y]);
-        if sun {
-            polygon.insert(2, DVec2::ONE);
+    /// The lines of all ways, o + s o' + t (d + s d'), in a member's coordinates: (o, o') and (d, d').
+    pub(crate) fn pencil(&self, member: &Member) -> ([DVec3; 2], [DVec3; 2]) {
+        let along = member.local_vector(self.b - self.a);
+        match self.source {
+            PointSource::At(lamp) => (
+                [member.local(lamp), DVec3::ZERO],
+                [member.local_vector(self.a - lamp), along],
+            ),
+            PointSource::Toward(way) => (
+                [member.local(self.a), along],
+                [member.local_vector(way), DVec3::ZERO],
+            ),
         }
-        let pad = margin * size.max(lamp);
-        for plane in planes {
-            let height = plane.normal.dot(corner) - plane.offset - pad;
-            let along = DVec2::new(plane.normal.dot(u), plane.normal.dot(v));
-            if !clip(&mut polygon, &mut kept, height, along) {
-                return Shadow::Nothing;
+    }
+
+    /// Whether its plane passes a box.
+    fn misses(&self, bounds: &Bounds) -> bool {
+        let Some(normal) = self.normal else { return false };
+        let centre = (bounds.low + bounds.high) * 0.5;
+        let reach = normal.abs().dot(bounds.high - centre);
+        // Products of coordinates, each rounded, and the normal likewise.
+        let rounding = 1e-12 * (self.size + centre.abs().max_element());
+        normal.dot(centre - self.a).abs() > reach + rounding
+    }
+
+    /// Whether a wall stands on the way from a place to the source.
+    fn blocked(&self, compound: &Compound, s: f64) -> bool {
+        let from = self.a + (self.b - self.a) * s;
+        let (way, end) = match self.source {
+            PointSource::At(lamp) => (lamp - from, 1.0),
+            PointSource::Toward(way) => (way, f64::INFINITY),
+        };
+        let touch = TOUCH * self.size / way.length();
+        let mut blocked = false;
+        compound.walls((from, way), |wall| {
+            let near = touch + wall.end.error;
+            blocked = wall.end.t > near && wall.end.t < end - near;
+            blocked || wall.end.t >= end
+        });
+        blocked
+    }
+}
+
+/// Working memory.
+#[derive(Default)]
+pub(crate) struct Work {
+    places: Vec<f64>,
+    sections: Vec<Option<Section>>,
+}
+
+impl Fan {
+    /// Appends the body's shadow.
+    pub(crate) fn stretches(&self, body: &Ready, work: &mut Work, out: &mut Vec<Stretch>) {
+        if body.bounds.is_empty() || self.misses(&body.bounds) || !self.places(body, work) {
+            return;
+        }
+        let places = &mut work.places;
+        places.sort_unstable_by(f64::total_cmp);
+        // Nearer than this points of the segment are the same in f64.
+        let exact = EXACT.max(8.0 * U * self.size / (self.b - self.a).length());
+        let touch = 4.0 * TOUCH * self.size / (self.b - self.a).length();
+        let blocked = |s: f64| self.blocked(&body.compound, s);
+        let (mut last, mut middle, mut from) = (0.0, 0.0, None);
+        for i in 0..=places.len() {
+            let next = places.get(i).copied().unwrap_or(1.0);
+            if next - last < exact && i < places.len() {
+                continue;
+            }
+            let here = 0.5 * (last + next);
+            let dark = blocked(here);
+            if dark != from.is_some() {
+                let place = match last {
+                    0.0 => 0.0,
+                    _ => border(blocked, !dark, [middle, here], last, [exact, touch]),
+                };
+                match from.take() {
+                    Some(from) => out.push(Stretch { from, to: place, dark: body.medium.is_none() }),
+                    None => from = Some(place),
+                }
+            }
+            (last, middle) = (next, here);
+        }
+        if let Some(from) = from {
+            out.push(Stretch { from, to: 1.0, dark: body.medium.is_none() });
+        }
+    }
+
+    /// Collects where the body's shadow may begin or end, between 0 and 1; false when it is nowhere near.
+    fn places(&self, body: &Ready, work: &mut Work) -> bool {
+        let Work { places, sections } = work;
+        (places.clear(), sections.clear());
+        let members = &body.compound.members;
+        let mut see = |s: f64| {
+            if s > 0.0 && s < 1.0 {
+                places.push(s);
+            }
+        };
+        let sheet = Sheet::new(self, &body.bounds);
+        let mut any = false;
+        for member in members {
+            let near = reaches(member, self);
+            any |= near;
+            let sheet = sheet.as_ref().filter(|_| near);
+            sections.push(sheet.map(|sheet| Section::new(member, self, sheet, &mut see)));
+        }
+        if !any {
+            return false;
+        }
+        if let Some(sheet) = &sheet {
+            for &(i, j) in &body.pairs {
+                if let (Some(one), Some(two)) = (&sections[i as usize], &sections[j as usize]) {
+                    one.corners(two, sheet, &mut see);
+                }
             }
         }
-        // Distance from the segment, and place along it; none at the lamp.
-        let length = u.length().max(v.length());
-        let off = |at: &DVec2| if sun { at.x * 4.0 * size } else { (1.0 - at.element_sum()) * length };
-        let place = |at: &DVec2| match at.element_sum() {
-            _ if sun => Some(at.y),
-            sum => (sum > 1e-12).then(|| at.y / sum),
-        };
-        if polygon.iter().all(|at| off(at) <= TOUCH * size) {
-            return Shadow::Nothing;
-        }
-        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-        for at in &polygon {
-            let Some(s) = place(at) else { return Shadow::Lamp };
-            (from, to) = (from.min(s), to.max(s));
-        }
-        let (from, to) = ((from - margin).max(0.0), (to + margin).min(1.0));
-        if from < to { Shadow::Stretch(from, to) } else { Shadow::Nothing }
+        body.compound.walls((self.a, self.b - self.a), |wall| {
+            see(wall.end.t);
+            wall.end.t >= 1.0
+        });
+        true
     }
 }
 
-/// How much larger what may be in the way is taken, as a share of the coordinates: all here rounds far below.
-pub(crate) const MARGIN: f64 = 1e-12;
-
-/// What reaches no farther than this from the segment, as a share of the coordinates, is the surface that the
-/// segment lies on, seen from its lit side. A place in f32 is 60 times less exact.
-const TOUCH: f64 = 1e-9;
-
-/// What a polyhedron does to a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Shadow {
-    /// No point of it is behind the polyhedron.
-    Nothing,
-    /// From here to here, as shares of the way.
-    Stretch(f64, f64),
-    /// The lamp is within the polyhedron.
-    Lamp,
-}
-
-/// Keeps the part of a convex polygon with height + along · x ≤ 0 (Sutherland and Hodgman 1974); false when none
-/// is left. `kept` is room to work in.
-fn clip(polygon: &mut Vec<DVec2>, kept: &mut Vec<DVec2>, height: f64, along: DVec2) -> bool {
-    let value = |x: &DVec2| height + along.dot(*x);
-    if polygon.iter().all(|x| value(x) <= 0.0) {
-        return true; // most planes of a polyhedron cut nothing off
-    }
-    kept.clear();
-    for (i, x) in polygon.iter().enumerate() {
-        let next = &polygon[(i + 1) % polygon.len()];
-        let (here, there) = (value(x), value(next));
-        if here <= 0.0 {
-            kept.push(*x);
+/// Where, near `at` and within a bracket, ways cease to be `before`, blocked or not.
+///
+/// `at` itself if ways around it, as near as the first or at least the second of `sure`, say so.
+fn border(
+    blocked: impl Fn(f64) -> bool,
+    before: bool,
+    [mut low, mut high]: [f64; 2],
+    at: f64,
+    sure: [f64; 2],
+) -> f64 {
+    for by in sure {
+        for s in [at - by, at + by] {
+            if low < s && s < high {
+                if blocked(s) == before { low = s } else { high = s }
+            }
         }
-        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
-            kept.push(*x + (*next - *x) * (here / (here - there)));
+        // Half as much again for the rounding of at ± by.
+        if at - low <= 1.5 * by && high - at <= 1.5 * by {
+            return at;
         }
     }
-    std::mem::swap(polygon, kept);
-    !polygon.is_empty()
+    while high - low > sure[0] {
+        let s = 0.5 * (low + high);
+        if s <= low || s >= high {
+            break;
+        }
+        if blocked(s) == before { low = s } else { high = s }
+    }
+    0.5 * (low + high)
 }

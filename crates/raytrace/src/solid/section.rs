@@ -1,0 +1,320 @@
+//! Members cut by the plane of a fan: the places that may matter to their shadow.
+//!
+//! Where along the segment the way to the source begins or ceases to be blocked by a compound, that way
+//!
+//! - touches the curved face of a member: the discriminant B² − AC of its quadric along the way is 0. By the
+//!   quadric's 2 × 2 minors mᵢⱼ = oᵢ dⱼ − oⱼ dᵢ it is −Σ Jᵢ Jⱼ mᵢⱼ² (J its signs), in which nothing cancels and which is
+//!   quadratic in the place, since m is linear in it;
+//! - or passes a corner of the cut: a rim of a frustum, a corner of a polyhedron, or where the faces of two
+//!   members cross. Within the plane faces are straight edges and conics; two conics have in common the roots
+//!   of a polynomial of the fourth degree, their resultant;
+//! - or starts where the segment itself enters or leaves the body.
+//!
+//! A place too many costs a test, one found inexactly a few tests.
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    boxes::Bounds,
+    chord::{BASE, Surface, TOP},
+    member::Member,
+    node::Plane,
+    roots::{partings, quadratic},
+    shadow::Fan,
+};
+
+/// Share of a body's size within which points are taken for the same when places are sought.
+const NEAR: f64 = 1e-6;
+
+/// The plane of a fan with coordinates in which a body is within ±1.
+pub(crate) struct Sheet {
+    origin: DVec3,
+    /// Its axes, as long as the body is large.
+    x: DVec3,
+    y: DVec3,
+    /// The segment's start and way.
+    start: DVec2,
+    way: DVec2,
+    /// The lamp, or the direction towards the sun.
+    lamp: Option<DVec2>,
+    sun: DVec2,
+}
+
+impl Sheet {
+    /// None for a fan that is a mere line.
+    pub(crate) fn new(fan: &Fan, bounds: &Bounds) -> Option<Self> {
+        let normal = fan.normal?;
+        let centre = (bounds.low + bounds.high) * 0.5;
+        let origin = centre - normal * normal.dot(centre - fan.a);
+        let size = 0.5 * (bounds.high - bounds.low).length();
+        let x = (fan.b - fan.a).normalize();
+        let y = normal.cross(x);
+        let flat = |v: DVec3| DVec2::new(v.dot(x), v.dot(y)) / size;
+        let (lamp, sun) = match fan.lamp() {
+            Some(lamp) => (Some(flat(lamp - origin)), DVec2::ZERO),
+            None => (None, flat(fan.sun())),
+        };
+        let (start, way) = (flat(fan.a - origin), flat(fan.b - fan.a));
+        Some(Self { origin, x: x * size, y: y * size, start, way, lamp, sun })
+    }
+
+    /// At which share of the segment a point between it and the source lies behind.
+    ///
+    /// From a lamp p: x − p = λ (a − p + s (b − a)); towards a sun w: x − a = s (b − a) + α w.
+    fn share(&self, point: DVec2) -> Option<f64> {
+        let Some(lamp) = self.lamp else {
+            let (from, across) = (point - self.start, self.way.perp_dot(self.sun));
+            let beyond = from.perp_dot(self.way) / -across;
+            return (beyond * self.sun.length() > -NEAR).then(|| from.perp_dot(self.sun) / across);
+        };
+        let (from, first) = (point - lamp, self.start - lamp);
+        let across = from.perp_dot(self.way);
+        let part = across / first.perp_dot(self.way);
+        (part > 0.0 && part < 1.0 + NEAR).then(|| -from.perp_dot(first) / across)
+    }
+}
+
+/// F = xx x² + 2 xy x y + yy y² + 2 x x + 2 y y + one, its largest coefficient 1.
+struct Conic {
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    x: f64,
+    y: f64,
+    one: f64,
+}
+
+impl Conic {
+    fn value(&self, p: DVec2) -> f64 {
+        let quadratic = self.xx * p.x * p.x + 2.0 * self.xy * p.x * p.y + self.yy * p.y * p.y;
+        quadratic + 2.0 * (self.x * p.x + self.y * p.y) + self.one
+    }
+
+    /// F(p + t v) as a polynomial in t.
+    fn along(&self, p: DVec2, v: DVec2) -> [f64; 3] {
+        let gradient = DVec2::new(self.xx * p.x + self.xy * p.y, self.xy * p.x + self.yy * p.y)
+            + DVec2::new(self.x, self.y);
+        let second = self.xx * v.x * v.x + 2.0 * self.xy * v.x * v.y + self.yy * v.y * v.y;
+        [self.value(p), 2.0 * gradient.dot(v), second]
+    }
+
+    /// F as a polynomial in y, whose coefficients are polynomials in x.
+    fn columns(&self) -> [[f64; 3]; 3] {
+        [[self.one, 2.0 * self.x, self.xx], [2.0 * self.y, 2.0 * self.xy, 0.0], [self.yy, 0.0, 0.0]]
+    }
+
+    /// Points that both may have in common, within ±1.
+    ///
+    /// a y² + b y + c and a' y² + b' y + c' have a root in common where
+    /// (a c' − a' c)² = (a b' − a' b) (b c' − b' c).
+    fn meet(&self, other: &Self, mut visit: impl FnMut(DVec2)) {
+        let ([c, b, a], [c2, b2, a2]) = (self.columns(), other.columns());
+        let minor = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
+            let (one, two) = (product(p, q), product(r, s));
+            std::array::from_fn(|i| one[i] - two[i])
+        };
+        let (ac, ab, bc): ([f64; 5], [f64; 5], [f64; 5]) =
+            (minor(a, c2, a2, c), minor(a, b2, a2, b), minor(b, c2, b2, c));
+        let mut resultant = [0.0; 5];
+        for i in 0..5 {
+            for j in 0..5 - i {
+                resultant[i + j] += ac[i] * ac[j] - ab[i] * bc[j];
+            }
+        }
+        partings(resultant, |x| {
+            for y in quadratic(self.along(DVec2::new(x, 0.0), DVec2::Y)) {
+                let point = DVec2::new(x, y);
+                // Where both turn, y is only as exact as the root of x.
+                if other.value(point).abs() < 1e-4 {
+                    visit(point);
+                }
+            }
+        });
+    }
+}
+
+fn product(p: [f64; 3], q: [f64; 3]) -> [f64; 5] {
+    let mut out = [0.0; 5];
+    for i in 0..3 {
+        for j in 0..3 {
+            out[i + j] += p[i] * q[j];
+        }
+    }
+    out
+}
+
+/// What the plane cuts out of a member's surface.
+pub(crate) struct Section {
+    conic: Option<Conic>,
+    edges: Vec<[DVec2; 2]>,
+}
+
+impl Section {
+    /// Reports where ways to the source touch the member or pass a corner of it.
+    pub(crate) fn new(member: &Member, fan: &Fan, sheet: &Sheet, mut visit: impl FnMut(f64)) -> Self {
+        let frame = [
+            member.local(sheet.origin),
+            member.local_vector(sheet.x),
+            member.local_vector(sheet.y),
+        ];
+        let conic = conic(&member.surface, frame);
+        let edges = match (&member.surface, &conic) {
+            (Surface::Planes(planes), _) => polygon(planes, frame),
+            (Surface::Frustum { .. }, Some(conic)) => {
+                [BASE, TOP].iter().filter_map(|cap| rim(conic, cap, frame)).collect()
+            }
+            _ => Vec::new(),
+        };
+        if conic.is_some() {
+            touching(member, fan).into_iter().for_each(&mut visit);
+        }
+        edges.iter().flatten().filter_map(|&corner| sheet.share(corner)).for_each(visit);
+        Self { conic, edges }
+    }
+
+    /// Reports where ways to the source pass a point that both surfaces have in common.
+    pub(crate) fn corners(&self, other: &Self, sheet: &Sheet, mut visit: impl FnMut(f64)) {
+        let mut see = |point: DVec2| {
+            if let Some(share) = sheet.share(point) {
+                visit(share);
+            }
+        };
+        if let (Some(one), Some(two)) = (&self.conic, &other.conic) {
+            one.meet(two, &mut see);
+        }
+        let within = |t: f64| (-NEAR..=1.0 + NEAR).contains(&t);
+        for (conic, edges) in [(&self.conic, &other.edges), (&other.conic, &self.edges)] {
+            let Some(conic) = conic else { continue };
+            for &[from, to] in edges {
+                let places = quadratic(conic.along(from, to - from));
+                places.into_iter().filter(|&t| within(t)).for_each(|t| see(from + (to - from) * t));
+            }
+        }
+        for &[p, q] in &self.edges {
+            for &[r, s] in &other.edges {
+                let (u, v, w) = (q - p, s - r, r - p);
+                let across = u.perp_dot(v);
+                let (t, other) = (w.perp_dot(v) / across, w.perp_dot(u) / across);
+                if within(t) && within(other) {
+                    see(p + u * t);
+                }
+            }
+        }
+    }
+}
+
+/// A vector in the coordinates in which a quadric is a sum of signed squares: x, y, z of a ball; x, z and the radius
+/// 1 − s y of a frustum. `one` is 1 for points, 0 for directions.
+fn squares(surface: &Surface, v: DVec3, one: f64) -> DVec3 {
+    match *surface {
+        Surface::Frustum { taper } => DVec3::new(v.x, v.z, one - taper * v.y),
+        _ => v,
+    }
+}
+
+fn conic(surface: &Surface, [origin, x, y]: [DVec3; 3]) -> Option<Conic> {
+    let (signs, constant) = match surface {
+        Surface::Ball => (DVec3::ONE, -1.0),
+        Surface::Frustum { .. } => (DVec3::new(1.0, 1.0, -1.0), 0.0),
+        Surface::Planes(_) => return None,
+    };
+    let (o, x, y) = (squares(surface, origin, 1.0), squares(surface, x, 0.0), squares(surface, y, 0.0));
+    let form = |u: DVec3, v: DVec3| (signs * u).dot(v);
+    let all = [form(x, x), form(x, y), form(y, y), form(o, x), form(o, y), form(o, o) + constant];
+    let largest = all.iter().fold(f64::MIN_POSITIVE, |largest, c| largest.max(c.abs()));
+    let [xx, xy, yy, x, y, one] = all.map(|c| c / largest);
+    Some(Conic { xx, xy, yy, x, y, one })
+}
+
+/// Where the way to the source touches a member's curved face.
+fn touching(member: &Member, fan: &Fan) -> [f64; 2] {
+    let ([o, along], [d, turn]) = fan.pencil(member);
+    let surface = &member.surface;
+    let (o, along) = (squares(surface, o, 1.0), squares(surface, along, 0.0));
+    let (d, turn) = (squares(surface, d, 0.0), squares(surface, turn, 0.0));
+    // o × d, linear in the place since either o or d stays.
+    let minors = [o.cross(d), along.cross(d) + o.cross(turn)];
+    match surface {
+        Surface::Ball => quadratic(difference(square(d, turn), square(minors[0], minors[1]))),
+        _ => {
+            let [m, change] = minors;
+            let part = |i: usize| [m[i] * m[i], 2.0 * m[i] * change[i], change[i] * change[i]];
+            let [a, b, c] = [part(0), part(1), part(2)];
+            quadratic(std::array::from_fn(|i| a[i] + b[i] - c[i]))
+        }
+    }
+}
+
+/// |v + s w|² as a polynomial in s.
+fn square(v: DVec3, w: DVec3) -> [f64; 3] {
+    [v.length_squared(), 2.0 * v.dot(w), w.length_squared()]
+}
+
+fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| p[i] - q[i])
+}
+
+/// Whether any way from the segment to the source, lengthened both ways, comes near the ball around a member.
+pub(crate) fn reaches(member: &Member, fan: &Fan) -> bool {
+    let ([o, along], [d, turn]) = fan.pencil(member);
+    let (centre, radius) = member.ball;
+    let o = o - centre;
+    let near = square(d, turn).map(|c| c * radius * radius * (1.0 + NEAR));
+    let depth = difference(near, square(o.cross(d), along.cross(d) + o.cross(turn)));
+    let [c, b, a] = depth;
+    // Said so that what is not a number is looked at.
+    !(c + 0.5 * b + 0.25 * a < 0.0) || quadratic(depth).iter().any(|s| (0.0..=1.0).contains(s))
+}
+
+/// Height of the plane's points above a half-space: constant, and change along the axes.
+fn height(plane: &Plane, [origin, x, y]: [DVec3; 3]) -> (f64, DVec2) {
+    let n = plane.normal;
+    (n.dot(origin) - plane.offset, DVec2::new(n.dot(x), n.dot(y)))
+}
+
+/// The chord of a frustum's cap.
+fn rim(conic: &Conic, cap: &Plane, frame: [DVec3; 3]) -> Option<[DVec2; 2]> {
+    let (height, slope) = height(cap, frame);
+    let foot = slope * (-height / slope.length_squared());
+    let along = slope.perp().normalize();
+    let ends = quadratic(conic.along(foot, along)).map(|t| foot + along * t);
+    ends.iter().all(|end| end.is_finite()).then_some(ends)
+}
+
+/// The edges of a polyhedron's cut, as far as they are within ±1.
+fn polygon(planes: &[Plane], frame: [DVec3; 3]) -> Vec<[DVec2; 2]> {
+    let mut polygon = vec![DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];
+    let mut kept = Vec::with_capacity(16);
+    for plane in planes {
+        let (height, slope) = height(plane, frame);
+        let size = NEAR * NEAR * frame[1].length();
+        // A face in the plane itself cuts nothing off.
+        let along = slope.length() <= size && height.abs() <= size;
+        if !along && !clip(&mut polygon, &mut kept, height, slope) {
+            return Vec::new();
+        }
+    }
+    (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]]).collect()
+}
+
+/// Keeps the part of a convex polygon with height + slope · x ≤ 0 (Sutherland and Hodgman 1974); false when none
+/// is left. `kept` is room to work in.
+fn clip(polygon: &mut Vec<DVec2>, kept: &mut Vec<DVec2>, height: f64, slope: DVec2) -> bool {
+    let value = |x: &DVec2| height + slope.dot(*x);
+    if polygon.iter().all(|x| value(x) <= 0.0) {
+        return true; // most planes of a polyhedron cut nothing off
+    }
+    kept.clear();
+    for (i, x) in polygon.iter().enumerate() {
+        let next = &polygon[(i + 1) % polygon.len()];
+        let (here, there) = (value(x), value(next));
+        if here <= 0.0 {
+            kept.push(*x);
+        }
+        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+            kept.push(*x + (*next - *x) * (here / (here - there)));
+        }
+    }
+    std::mem::swap(polygon, kept);
+    !polygon.is_empty()
+}
