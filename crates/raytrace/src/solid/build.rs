@@ -112,12 +112,13 @@ fn bounds(member: &Member, hull: &Solid) -> Bounds {
 }
 
 /// Which of a body's boxes have something in common within its own.
-fn pairs(boxes: &[Bounds], body: Bounds) -> Vec<(u32, u32)> {
+fn pairs(boxes: &[Bounds], body: Bounds) -> Vec<(u32, u32, Bounds)> {
     let mut pairs = Vec::new();
     for (i, one) in (0u32..).zip(boxes) {
         for (j, two) in (0u32..i).zip(boxes) {
-            if !one.common(*two).common(body).is_empty() {
-                pairs.push((j, i));
+            let common = one.common(*two).common(body);
+            if !common.is_empty() {
+                pairs.push((j, i, common));
             }
         }
     }

@@ -171,6 +171,20 @@ impl Surface {
         chord.bend(&quadric, rising)
     }
 
+    /// How far outside a point is: a distance for planes, off by a factor of the shape's for others; negative inside.
+    pub(crate) fn beyond(&self, p: DVec3) -> f64 {
+        match self {
+            Self::Ball => p.length() - 1.0,
+            Self::Frustum { taper } => {
+                let side = p.x.hypot(p.z) - (1.0 - taper * p.y);
+                side.max(-p.y).max(p.y - 1.0)
+            }
+            Self::Planes(planes) => {
+                planes.iter().map(|plane| plane.normal.dot(p) - plane.offset).fold(f64::NEG_INFINITY, f64::max)
+            }
+        }
+    }
+
     /// Some vector along the outward normal of a face at a point of it.
     pub(crate) fn gradient(&self, face: u32, p: DVec3) -> DVec3 {
         match (self, face) {

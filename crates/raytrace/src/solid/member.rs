@@ -141,6 +141,13 @@ impl Member {
         })
     }
 
+    /// Whether it holds a point; none for points near its surface, to 1e-6 of its size.
+    pub(crate) fn holds(&self, point: DVec3) -> Option<bool> {
+        let beyond = self.surface.beyond(self.local(point)) / self.ball.1;
+        // Said so that what is not a number is near.
+        (beyond.abs() > 1e-6).then_some(beyond < 0.0)
+    }
+
     /// Where the line is inside.
     pub(crate) fn chord(&self, line: (DVec3, DVec3)) -> Option<Chord> {
         let local = self.line(line)?;

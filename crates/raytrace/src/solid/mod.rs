@@ -104,8 +104,8 @@ struct Ready {
     medium: Option<Arc<Medium>>,
     /// Empty for a body without points.
     bounds: Bounds,
-    /// Members whose surfaces may cross.
-    pairs: Vec<(u32, u32)>,
+    /// Members whose surfaces may cross, and where.
+    pairs: Vec<(u32, u32, Bounds)>,
 }
 
 /// Where a line enters or leaves a body.

@@ -43,7 +43,7 @@ pub(crate) struct Sheet {
 impl Sheet {
     /// None for a fan that is a mere line.
     pub(crate) fn new(fan: &Fan, bounds: &Bounds) -> Option<Self> {
-        let normal = fan.normal?;
+        let normal = fan.normal()?;
         let centre = (bounds.low + bounds.high) * 0.5;
         let origin = centre - normal * normal.dot(centre - fan.a);
         let size = 0.5 * (bounds.high - bounds.low).length();
@@ -56,6 +56,11 @@ impl Sheet {
         };
         let (start, way) = (flat(fan.a - origin), flat(fan.b - fan.a));
         Some(Self { origin, x: x * size, y: y * size, start, way, lamp, sun })
+    }
+
+    /// The point in the world.
+    fn point(&self, at: DVec2) -> DVec3 {
+        self.origin + self.x * at.x + self.y * at.y
     }
 
     /// At which share of the segment a point between it and the source lies behind.
@@ -150,8 +155,9 @@ pub(crate) struct Section {
 }
 
 impl Section {
-    /// Reports where ways to the source touch the member or pass a corner of it.
-    pub(crate) fn new(member: &Member, fan: &Fan, sheet: &Sheet, mut visit: impl FnMut(f64)) -> Self {
+    /// Reports at which shares of the segment ways to the source touch the member or pass a corner of it, and at
+    /// which points.
+    pub(crate) fn new(member: &Member, fan: &Fan, sheet: &Sheet, mut visit: impl FnMut(f64, DVec3)) -> Self {
         let frame = [
             member.local(sheet.origin),
             member.local_vector(sheet.x),
@@ -166,17 +172,21 @@ impl Section {
             _ => Vec::new(),
         };
         if conic.is_some() {
-            touching(member, fan).into_iter().for_each(&mut visit);
+            touching(member, fan).into_iter().flatten().for_each(|(s, point)| visit(s, point));
         }
-        edges.iter().flatten().filter_map(|&corner| sheet.share(corner)).for_each(visit);
+        for &corner in edges.iter().flatten() {
+            if let Some(s) = sheet.share(corner) {
+                visit(s, sheet.point(corner));
+            }
+        }
         Self { conic, edges }
     }
 
     /// Reports where ways to the source pass a point that both surfaces have in common.
-    pub(crate) fn corners(&self, other: &Self, sheet: &Sheet, mut visit: impl FnMut(f64)) {
+    pub(crate) fn corners(&self, other: &Self, sheet: &Sheet, mut visit: impl FnMut(f64, DVec3)) {
         let mut see = |point: DVec2| {
-            if let Some(share) = sheet.share(point) {
-                visit(share);
+            if let Some(s) = sheet.share(point) {
+                visit(s, sheet.point(point));
             }
         };
         if let (Some(one), Some(two)) = (&self.conic, &other.conic) {
@@ -226,44 +236,44 @@ fn conic(surface: &Surface, [origin, x, y]: [DVec3; 3]) -> Option<Conic> {
     Some(Conic { xx, xy, yy, x, y, one })
 }
 
-/// Where the way to the source touches a member's curved face.
-fn touching(member: &Member, fan: &Fan) -> [f64; 2] {
-    let ([o, along], [d, turn]) = fan.pencil(member);
+/// Where the way to the source touches a member's curved face, and in which points.
+fn touching(member: &Member, fan: &Fan) -> [Option<(f64, DVec3)>; 2] {
+    let ([o, along], [d, turn]) = fan.local_pencil(member);
     let surface = &member.surface;
     let (o, along) = (squares(surface, o, 1.0), squares(surface, along, 0.0));
     let (d, turn) = (squares(surface, d, 0.0), squares(surface, turn, 0.0));
     // o × d, linear in the place since either o or d stays.
     let minors = [o.cross(d), along.cross(d) + o.cross(turn)];
-    match surface {
-        Surface::Ball => quadratic(difference(square(d, turn), square(minors[0], minors[1]))),
+    let (signs, discriminant) = match surface {
+        Surface::Ball => (DVec3::ONE, difference(square(d, turn), square(minors[0], minors[1]))),
         _ => {
             let [m, change] = minors;
             let part = |i: usize| [m[i] * m[i], 2.0 * m[i] * change[i], change[i] * change[i]];
             let [a, b, c] = [part(0), part(1), part(2)];
-            quadratic(std::array::from_fn(|i| a[i] + b[i] - c[i]))
+            (DVec3::new(1.0, 1.0, -1.0), std::array::from_fn(|i| a[i] + b[i] - c[i]))
         }
-    }
+    };
+    quadratic(discriminant).map(|s| {
+        if !(0.0..=1.0).contains(&s) {
+            return None;
+        }
+        // The double root of A t² + 2 B t + C.
+        let (from, way) = (o + along * s, d + turn * s);
+        let t = -(signs * from).dot(way) / (signs * way).dot(way);
+        let point = fan.pass(s, t)?;
+        let height = member.local(point).y;
+        let face = matches!(surface, Surface::Ball) || (-NEAR..=1.0 + NEAR).contains(&height);
+        face.then_some((s, point))
+    })
 }
 
 /// |v + s w|² as a polynomial in s.
-fn square(v: DVec3, w: DVec3) -> [f64; 3] {
+pub(crate) fn square(v: DVec3, w: DVec3) -> [f64; 3] {
     [v.length_squared(), 2.0 * v.dot(w), w.length_squared()]
 }
 
-fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+pub(crate) fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| p[i] - q[i])
-}
-
-/// Whether any way from the segment to the source, lengthened both ways, comes near the ball around a member.
-pub(crate) fn reaches(member: &Member, fan: &Fan) -> bool {
-    let ([o, along], [d, turn]) = fan.pencil(member);
-    let (centre, radius) = member.ball;
-    let o = o - centre;
-    let near = square(d, turn).map(|c| c * radius * radius * (1.0 + NEAR));
-    let depth = difference(near, square(o.cross(d), along.cross(d) + o.cross(turn)));
-    let [c, b, a] = depth;
-    // Said so that what is not a number is looked at.
-    !(c + 0.5 * b + 0.25 * a < 0.0) || quadratic(depth).iter().any(|s| (0.0..=1.0).contains(s))
 }
 
 /// Height of the plane's points above a half-space: constant, and change along the axes.

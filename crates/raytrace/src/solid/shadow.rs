@@ -10,6 +10,8 @@
 //! stands on the segment or pierces it, to [`TOUCH`]. A piece of shadow or of light may be missed where it is
 //! shorter than 1e-6 of the body *and* the two borders are those of members that just touch or just cross there.
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 use light::{PointSource, Stretch};
 
@@ -18,7 +20,8 @@ use super::{
     boxes::Bounds,
     csg::Compound,
     member::{Member, U},
-    section::{Section, Sheet, reaches},
+    roots::quadratic,
+    section::{Section, Sheet, difference, square},
 };
 
 /// Share of the segment to which its places are told apart.
@@ -29,28 +32,39 @@ const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
 /// less exact.
 const TOUCH: f64 = 1e-9;
 
+/// Lines o + s o' + t (d + s d'): (o, o') and (d, d').
+pub(crate) type Pencil = ([DVec3; 2], [DVec3; 2]);
+
 /// The fan of a source over a segment.
 pub(crate) struct Fan {
     source: PointSource,
     pub(crate) a: DVec3,
     pub(crate) b: DVec3,
-    /// Unit normal of its plane; none for a mere line.
-    pub(crate) normal: Option<DVec3>,
+    /// See [`Self::normal`].
+    plane: OnceCell<Option<DVec3>>,
     /// The largest coordinate.
     size: f64,
 }
 
 impl Fan {
     pub(crate) fn new(source: &PointSource, a: DVec3, b: DVec3) -> Self {
-        let (way, lamp) = match *source {
-            PointSource::At(lamp) => (lamp - a, lamp),
-            PointSource::Toward(way) => (way, DVec3::ZERO),
+        let lamp = match *source {
+            PointSource::At(lamp) => lamp,
+            PointSource::Toward(_) => DVec3::ZERO,
         };
-        let normal = way.cross(b - a);
-        // Nearer to a line than this its plane would be made of rounding.
-        let flat = normal.length() > 1e-12 * way.length() * (b - a).length();
         let size = a.abs().max(b.abs()).max(lamp.abs()).max_element();
-        Self { source: *source, a, b, normal: flat.then(|| normal.normalize()), size }
+        Self { source: *source, a, b, plane: OnceCell::new(), size }
+    }
+
+    /// Unit normal of its plane; none for a mere line. Most fans meet no body and are never asked.
+    pub(crate) fn normal(&self) -> Option<DVec3> {
+        *self.plane.get_or_init(|| {
+            let (along, way) = (self.b - self.a, self.lamp().map_or(self.sun(), |lamp| lamp - self.a));
+            let normal = way.cross(along);
+            // Nearer to a line than this its plane would be made of rounding.
+            let flat = normal.length() > 1e-12 * way.length() * along.length();
+            flat.then(|| normal.normalize())
+        })
     }
 
     pub(crate) fn lamp(&self) -> Option<DVec3> {
@@ -81,29 +95,55 @@ impl Fan {
         }
     }
 
-    /// The lines of all ways, o + s o' + t (d + s d'), in a member's coordinates: (o, o') and (d, d').
-    pub(crate) fn pencil(&self, member: &Member) -> ([DVec3; 2], [DVec3; 2]) {
-        let along = member.local_vector(self.b - self.a);
+    /// The lines of all ways.
+    fn pencil(&self) -> Pencil {
         match self.source {
-            PointSource::At(lamp) => (
-                [member.local(lamp), DVec3::ZERO],
-                [member.local_vector(self.a - lamp), along],
-            ),
-            PointSource::Toward(way) => (
-                [member.local(self.a), along],
-                [member.local_vector(way), DVec3::ZERO],
-            ),
+            PointSource::At(lamp) => ([lamp, DVec3::ZERO], [self.a - lamp, self.b - self.a]),
+            PointSource::Toward(way) => ([self.a, self.b - self.a], [way, DVec3::ZERO]),
         }
     }
 
-    /// Whether its plane passes a box.
+    /// The same in a member's coordinates.
+    pub(crate) fn local_pencil(&self, member: &Member) -> Pencil {
+        let ([o, along], ways) = self.pencil();
+        let local = |v: DVec3| member.local_vector(v);
+        ([member.local(o), local(along)], ways.map(local))
+    }
+
+    /// The point of line s of [`Self::pencil`] at t, if it lies between segment and source.
+    pub(crate) fn pass(&self, s: f64, t: f64) -> Option<DVec3> {
+        let place = self.a + (self.b - self.a) * s;
+        match self.source {
+            // With some room for what is found inexactly.
+            PointSource::At(lamp) => (t > -1e-6 && t < 1.0 + 1e-6).then(|| lamp + (place - lamp) * t),
+            PointSource::Toward(way) => (t > -1e-6 * self.size).then(|| place + way * t),
+        }
+    }
+
+    /// Whether its plane misses a box.
     fn misses(&self, bounds: &Bounds) -> bool {
-        let Some(normal) = self.normal else { return false };
+        let Some(normal) = self.normal() else { return false };
         let centre = (bounds.low + bounds.high) * 0.5;
         let reach = normal.abs().dot(bounds.high - centre);
         // Products of coordinates, each rounded, and the normal likewise.
         let rounding = 1e-12 * (self.size + centre.abs().max_element());
         normal.dot(centre - self.a).abs() > reach + rounding
+    }
+
+    /// Whether a ball comes near any of the lines o + s o' + t (d + s d'), 0 ≤ s ≤ 1: whether
+    /// r² d² − |(o − c) × d|² ≥ 0 for any of them.
+    fn reaches(([o, along], [d, turn]): Pencil, (centre, radius): (DVec3, f64)) -> bool {
+        let o = o - centre;
+        let near = square(d, turn).map(|c| c * radius * radius * (1.0 + 1e-6));
+        let depth = difference(near, square(o.cross(d), along.cross(d) + o.cross(turn)));
+        let middle = depth[0] + 0.5 * depth[1] + 0.25 * depth[2];
+        middle >= 0.0 || quadratic(depth).iter().any(|s| (0.0..=1.0).contains(s))
+    }
+
+    /// Whether a box has a point in common with the fan's plane, near its ways.
+    fn passes(&self, bounds: &Bounds) -> bool {
+        let ball = ((bounds.low + bounds.high) * 0.5, (bounds.high - bounds.low).length() * 0.5);
+        !self.misses(bounds) && Self::reaches(self.pencil(), ball)
     }
 
     /// Whether a wall stands on the way from a place to the source.
@@ -172,32 +212,37 @@ impl Fan {
     fn places(&self, body: &Ready, work: &mut Work) -> bool {
         let Work { places, sections } = work;
         (places.clear(), sections.clear());
-        let members = &body.compound.members;
-        let mut see = |s: f64| {
-            if s > 0.0 && s < 1.0 {
+                let compound = &body.compound;
+        let mut see = |s: f64, at: DVec3, members: [u32; 2]| {
+            if s > 0.0 && s < 1.0 && compound.shows(at, members) {
                 places.push(s);
             }
         };
         let sheet = Sheet::new(self, &body.bounds);
         let mut any = false;
-        for member in members {
-            let near = reaches(member, self);
+        for (member, i) in body.compound.members.iter().zip(0..) {
+            let near = Self::reaches(self.local_pencil(member), member.ball);
             any |= near;
             let sheet = sheet.as_ref().filter(|_| near);
-            sections.push(sheet.map(|sheet| Section::new(member, self, sheet, &mut see)));
+            let see = |s, at| see(s, at, [i; 2]);
+            sections.push(sheet.map(|sheet| Section::new(member, self, sheet, see)));
         }
         if !any {
             return false;
         }
         if let Some(sheet) = &sheet {
-            for &(i, j) in &body.pairs {
-                if let (Some(one), Some(two)) = (&sections[i as usize], &sections[j as usize]) {
-                    one.corners(two, sheet, &mut see);
+            for &(i, j, common) in &body.pairs {
+                if let (Some(one), Some(two)) = (&sections[i as usize], &sections[j as usize])
+                    && self.passes(&common)
+                {
+                    one.corners(two, sheet, |s, at| see(s, at, [i, j]));
                 }
             }
         }
         body.compound.walls((self.a, self.b - self.a), |wall| {
-            see(wall.end.t);
+            if wall.end.t > 0.0 && wall.end.t < 1.0 {
+                places.push(wall.end.t);
+            }
             wall.end.t >= 1.0
         });
         true
