@@ -51,8 +51,7 @@ fn notched() -> Vec<Node> {
     let pot = |n: u32| {
         let place = DVec3::new(f64::from(n % 10) * 2.0 - 9.0, 0.0, f64::from(n / 10) * 2.0 - 9.0);
         let outer = at(Shape::Frustum { top: 1.4 }, DVec3::new(0.4, 0.6, 0.4), place);
-        let mut cuts =
-            vec![at(Shape::Cylinder, DVec3::new(0.35, 0.6, 0.35), place + DVec3::Y * 0.05)];
+        let mut cuts = vec![at(Shape::Cylinder, DVec3::new(0.35, 0.6, 0.35), place + DVec3::Y * 0.05)];
         for i in 0..4 {
             let (sin, cos) = (TAU * (f64::from(i) + 0.1) / 4.0).sin_cos();
             let side = place + DVec3::new(0.5 * cos, 0.6, 0.5 * sin);

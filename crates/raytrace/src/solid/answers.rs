@@ -10,8 +10,9 @@ use crate::transmit;
 use super::{
     Acceleration, Crossing, Solids,
     csg::{Compound, Wall},
+    fan::Fan,
     member::U,
-    shadow::{Fan, Work},
+    shadow::Work,
 };
 
 impl Compound {

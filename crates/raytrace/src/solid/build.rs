@@ -147,7 +147,7 @@ pub(crate) fn solids(bodies: Vec<Body>, first_instance: u32) -> Result<Solids, F
             faces: solid.faces,
         }));
         let compound = Compound { members: walk.members, expression: part.expression };
-        ready.push(Ready { compound, medium: body.medium, bounds, pairs });
+        ready.push(Ready { compound, medium: body.medium, bounds, boxes: walk.boxes, pairs });
     }
     let bounds: Vec<Bounds> = ready.iter().map(|body| body.bounds).collect();
     let boxes = Boxes::new(&bounds);

@@ -179,9 +179,10 @@ impl Surface {
                 let side = p.x.hypot(p.z) - (1.0 - taper * p.y);
                 side.max(-p.y).max(p.y - 1.0)
             }
-            Self::Planes(planes) => {
-                planes.iter().map(|plane| plane.normal.dot(p) - plane.offset).fold(f64::NEG_INFINITY, f64::max)
-            }
+            Self::Planes(planes) => planes
+                .iter()
+                .map(|plane| plane.normal.dot(p) - plane.offset)
+                .fold(f64::NEG_INFINITY, f64::max),
         }
     }
 

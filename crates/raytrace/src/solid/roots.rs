@@ -1,4 +1,6 @@
-//! Roots of polynomials of up to the fourth degree, and what parts them.
+//! Polynomials of up to the fourth degree, and where they are 0.
+
+use glam::DVec3;
 
 /// The roots of c₀ + c₁ x + c₂ x², in no order; what is not a finite number is none.
 ///
@@ -12,6 +14,16 @@ pub(crate) fn quadratic([c, b, a]: [f64; 3]) -> [f64; 2] {
     }
     let q = -(h + discriminant.max(0.0).sqrt().copysign(h));
     [q / a, c / q]
+}
+
+/// |v + s w|² as a polynomial in s.
+pub(crate) fn square(v: DVec3, w: DVec3) -> [f64; 3] {
+    [v.length_squared(), 2.0 * v.dot(w), w.length_squared()]
+}
+
+/// One polynomial less another.
+pub(crate) fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| p[i] - q[i])
 }
 
 /// Most numbers that [`partings`] finds: −1, 1 and 4 + 3 + 2 + 1 zeros.
@@ -59,7 +71,11 @@ fn zero(polynomial: &[f64; 5], mut low: f64, mut high: f64) -> Option<f64> {
     // Halving alone is done after 53 steps; Newton's are mostly 5.
     for _ in 0..60 {
         let (here, slope) = value(polynomial, x);
-        if (here < 0.0) == (at_low < 0.0) { low = x } else { high = x }
+        if (here < 0.0) == (at_low < 0.0) {
+            low = x
+        } else {
+            high = x
+        }
         let next = x - here / slope;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         if (next - x).abs() <= f64::EPSILON {

@@ -15,138 +15,14 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    boxes::Bounds,
     chord::{BASE, Surface, TOP},
+    conic::Conic,
+    fan::Fan,
     member::Member,
     node::Plane,
-    roots::{partings, quadratic},
-    shadow::Fan,
+    roots::{difference, quadratic, square},
+    sheet::{NEAR, Sheet},
 };
-
-/// Share of a body's size within which points are taken for the same when places are sought.
-const NEAR: f64 = 1e-6;
-
-/// The plane of a fan with coordinates in which a body is within ±1.
-pub(crate) struct Sheet {
-    origin: DVec3,
-    /// Its axes, as long as the body is large.
-    x: DVec3,
-    y: DVec3,
-    /// The segment's start and way.
-    start: DVec2,
-    way: DVec2,
-    /// The lamp, or the direction towards the sun.
-    lamp: Option<DVec2>,
-    sun: DVec2,
-}
-
-impl Sheet {
-    /// None for a fan that is a mere line.
-    pub(crate) fn new(fan: &Fan, bounds: &Bounds) -> Option<Self> {
-        let normal = fan.normal()?;
-        let centre = (bounds.low + bounds.high) * 0.5;
-        let origin = centre - normal * normal.dot(centre - fan.a);
-        let size = 0.5 * (bounds.high - bounds.low).length();
-        let x = (fan.b - fan.a).normalize();
-        let y = normal.cross(x);
-        let flat = |v: DVec3| DVec2::new(v.dot(x), v.dot(y)) / size;
-        let (lamp, sun) = match fan.lamp() {
-            Some(lamp) => (Some(flat(lamp - origin)), DVec2::ZERO),
-            None => (None, flat(fan.sun())),
-        };
-        let (start, way) = (flat(fan.a - origin), flat(fan.b - fan.a));
-        Some(Self { origin, x: x * size, y: y * size, start, way, lamp, sun })
-    }
-
-    /// The point in the world.
-    fn point(&self, at: DVec2) -> DVec3 {
-        self.origin + self.x * at.x + self.y * at.y
-    }
-
-    /// At which share of the segment a point between it and the source lies behind.
-    ///
-    /// From a lamp p: x − p = λ (a − p + s (b − a)); towards a sun w: x − a = s (b − a) + α w.
-    fn share(&self, point: DVec2) -> Option<f64> {
-        let Some(lamp) = self.lamp else {
-            let (from, across) = (point - self.start, self.way.perp_dot(self.sun));
-            let beyond = from.perp_dot(self.way) / -across;
-            return (beyond * self.sun.length() > -NEAR).then(|| from.perp_dot(self.sun) / across);
-        };
-        let (from, first) = (point - lamp, self.start - lamp);
-        let across = from.perp_dot(self.way);
-        let part = across / first.perp_dot(self.way);
-        (part > 0.0 && part < 1.0 + NEAR).then(|| -from.perp_dot(first) / across)
-    }
-}
-
-/// F = xx x² + 2 xy x y + yy y² + 2 x x + 2 y y + one, its largest coefficient 1.
-struct Conic {
-    xx: f64,
-    xy: f64,
-    yy: f64,
-    x: f64,
-    y: f64,
-    one: f64,
-}
-
-impl Conic {
-    fn value(&self, p: DVec2) -> f64 {
-        let quadratic = self.xx * p.x * p.x + 2.0 * self.xy * p.x * p.y + self.yy * p.y * p.y;
-        quadratic + 2.0 * (self.x * p.x + self.y * p.y) + self.one
-    }
-
-    /// F(p + t v) as a polynomial in t.
-    fn along(&self, p: DVec2, v: DVec2) -> [f64; 3] {
-        let gradient = DVec2::new(self.xx * p.x + self.xy * p.y, self.xy * p.x + self.yy * p.y)
-            + DVec2::new(self.x, self.y);
-        let second = self.xx * v.x * v.x + 2.0 * self.xy * v.x * v.y + self.yy * v.y * v.y;
-        [self.value(p), 2.0 * gradient.dot(v), second]
-    }
-
-    /// F as a polynomial in y, whose coefficients are polynomials in x.
-    fn columns(&self) -> [[f64; 3]; 3] {
-        [[self.one, 2.0 * self.x, self.xx], [2.0 * self.y, 2.0 * self.xy, 0.0], [self.yy, 0.0, 0.0]]
-    }
-
-    /// Points that both may have in common, within ±1.
-    ///
-    /// a y² + b y + c and a' y² + b' y + c' have a root in common where
-    /// (a c' − a' c)² = (a b' − a' b) (b c' − b' c).
-    fn meet(&self, other: &Self, mut visit: impl FnMut(DVec2)) {
-        let ([c, b, a], [c2, b2, a2]) = (self.columns(), other.columns());
-        let minor = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
-            let (one, two) = (product(p, q), product(r, s));
-            std::array::from_fn(|i| one[i] - two[i])
-        };
-        let (ac, ab, bc): ([f64; 5], [f64; 5], [f64; 5]) =
-            (minor(a, c2, a2, c), minor(a, b2, a2, b), minor(b, c2, b2, c));
-        let mut resultant = [0.0; 5];
-        for i in 0..5 {
-            for j in 0..5 - i {
-                resultant[i + j] += ac[i] * ac[j] - ab[i] * bc[j];
-            }
-        }
-        partings(resultant, |x| {
-            for y in quadratic(self.along(DVec2::new(x, 0.0), DVec2::Y)) {
-                let point = DVec2::new(x, y);
-                // Where both turn, y is only as exact as the root of x.
-                if other.value(point).abs() < 1e-4 {
-                    visit(point);
-                }
-            }
-        });
-    }
-}
-
-fn product(p: [f64; 3], q: [f64; 3]) -> [f64; 5] {
-    let mut out = [0.0; 5];
-    for i in 0..3 {
-        for j in 0..3 {
-            out[i + j] += p[i] * q[j];
-        }
-    }
-    out
-}
 
 /// What the plane cuts out of a member's surface.
 pub(crate) struct Section {
@@ -158,11 +34,7 @@ impl Section {
     /// Reports at which shares of the segment ways to the source touch the member or pass a corner of it, and at
     /// which points.
     pub(crate) fn new(member: &Member, fan: &Fan, sheet: &Sheet, mut visit: impl FnMut(f64, DVec3)) -> Self {
-        let frame = [
-            member.local(sheet.origin),
-            member.local_vector(sheet.x),
-            member.local_vector(sheet.y),
-        ];
+        let frame = [member.local(sheet.origin), member.local_vector(sheet.x), member.local_vector(sheet.y)];
         let conic = conic(&member.surface, frame);
         let edges = match (&member.surface, &conic) {
             (Surface::Planes(planes), _) => polygon(planes, frame),
@@ -230,10 +102,7 @@ fn conic(surface: &Surface, [origin, x, y]: [DVec3; 3]) -> Option<Conic> {
     };
     let (o, x, y) = (squares(surface, origin, 1.0), squares(surface, x, 0.0), squares(surface, y, 0.0));
     let form = |u: DVec3, v: DVec3| (signs * u).dot(v);
-    let all = [form(x, x), form(x, y), form(y, y), form(o, x), form(o, y), form(o, o) + constant];
-    let largest = all.iter().fold(f64::MIN_POSITIVE, |largest, c| largest.max(c.abs()));
-    let [xx, xy, yy, x, y, one] = all.map(|c| c / largest);
-    Some(Conic { xx, xy, yy, x, y, one })
+    Some(Conic::new([form(x, x), form(x, y), form(y, y), form(o, x), form(o, y), form(o, o) + constant]))
 }
 
 /// Where the way to the source touches a member's curved face, and in which points.
@@ -265,15 +134,6 @@ fn touching(member: &Member, fan: &Fan) -> [Option<(f64, DVec3)>; 2] {
         let face = matches!(surface, Surface::Ball) || (-NEAR..=1.0 + NEAR).contains(&height);
         face.then_some((s, point))
     })
-}
-
-/// |v + s w|² as a polynomial in s.
-pub(crate) fn square(v: DVec3, w: DVec3) -> [f64; 3] {
-    [v.length_squared(), 2.0 * v.dot(w), w.length_squared()]
-}
-
-pub(crate) fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| p[i] - q[i])
 }
 
 /// Height of the plane's points above a half-space: constant, and change along the axes.

@@ -1,168 +1,29 @@
 //! The shadow of bodies on a segment, exactly.
 //!
-//! Seen from the source, the segment a b spans a plane *fan* of ways p(s) … source, p = a + s (b − a). A way is
-//! blocked if it meets a wall of the compound, as a ray would. That can only change at places that
-//! [`super::section`] knows; between neighbouring ones a single way tells for all. A place where it does change
-//! is where a stretch ends, once ways just before and just behind it have confirmed it; otherwise halving finds it.
+//! A way from the segment to the source is blocked if it meets a wall of the compound, as a ray would. That can only
+//! change at places that [`super::section`] knows; between neighbouring ones a single way tells for all. A place
+//! where it does change is where a stretch ends, once ways just before and just behind it have confirmed it;
+//! otherwise halving finds it. So what is dark is what rays say; what cuts the members only says where to look.
 //!
-//! So what is dark is what rays say, and what cuts the members only decides where to look. A stretch's end is right
-//! to [`EXACT`] of the segment, or to the rounding of its points; where the shadow begins on the body itself, which
-//! stands on the segment or pierces it, to [`TOUCH`]. A piece of shadow or of light may be missed where it is
-//! shorter than 1e-6 of the body *and* the two borders are those of members that just touch or just cross there.
-
-use std::cell::OnceCell;
+//! *How exactly.* A stretch ends where the shadow does, to [`EXACT`] of the segment and to what walls are known to
+//! (see [`crate::solid`]), as a lamp projects it. Where the body stands on the segment or pierces it, rays themselves
+//! cannot tell nearer than 1e-9 of the coordinates ([`TOUCH`]); a lamp that near to a surface is on either side of it.
+//! A piece of shadow, or of light between two, may be missed where it is shorter than [`EXACT`], or where both its
+//! ends come from one pair of curved members whose surfaces touch there, but for 1e-8 of the body's size.
 
 use glam::DVec3;
-use light::{PointSource, Stretch};
+use light::Stretch;
 
 use super::{
     Ready,
-    boxes::Bounds,
-    csg::Compound,
-    member::{Member, U},
-    roots::quadratic,
-    section::{Section, Sheet, difference, square},
+    fan::{Fan, TOUCH},
+    member::U,
+    section::Section,
+    sheet::Sheet,
 };
 
 /// Share of the segment to which its places are told apart.
 const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
-
-/// A wall no farther than this from either end of a way, as a share of the coordinates, is the surface that
-/// the segment lies on, seen from its lit side, or the one that the lamp is set in. A place in f32 is 60 times
-/// less exact.
-const TOUCH: f64 = 1e-9;
-
-/// Lines o + s o' + t (d + s d'): (o, o') and (d, d').
-pub(crate) type Pencil = ([DVec3; 2], [DVec3; 2]);
-
-/// The fan of a source over a segment.
-pub(crate) struct Fan {
-    source: PointSource,
-    pub(crate) a: DVec3,
-    pub(crate) b: DVec3,
-    /// See [`Self::normal`].
-    plane: OnceCell<Option<DVec3>>,
-    /// The largest coordinate.
-    size: f64,
-}
-
-impl Fan {
-    pub(crate) fn new(source: &PointSource, a: DVec3, b: DVec3) -> Self {
-        let lamp = match *source {
-            PointSource::At(lamp) => lamp,
-            PointSource::Toward(_) => DVec3::ZERO,
-        };
-        let size = a.abs().max(b.abs()).max(lamp.abs()).max_element();
-        Self { source: *source, a, b, plane: OnceCell::new(), size }
-    }
-
-    /// Unit normal of its plane; none for a mere line. Most fans meet no body and are never asked.
-    pub(crate) fn normal(&self) -> Option<DVec3> {
-        *self.plane.get_or_init(|| {
-            let (along, way) = (self.b - self.a, self.lamp().map_or(self.sun(), |lamp| lamp - self.a));
-            let normal = way.cross(along);
-            // Nearer to a line than this its plane would be made of rounding.
-            let flat = normal.length() > 1e-12 * way.length() * along.length();
-            flat.then(|| normal.normalize())
-        })
-    }
-
-    pub(crate) fn lamp(&self) -> Option<DVec3> {
-        match self.source {
-            PointSource::At(lamp) => Some(lamp),
-            PointSource::Toward(_) => None,
-        }
-    }
-
-    /// Direction towards the sun; 0 for a lamp.
-    pub(crate) fn sun(&self) -> DVec3 {
-        match self.source {
-            PointSource::At(_) => DVec3::ZERO,
-            PointSource::Toward(way) => way,
-        }
-    }
-
-    /// A box around all of it.
-    pub(crate) fn bounds(&self) -> Bounds {
-        let ends = Bounds::around(&[self.a, self.b]);
-        match self.source {
-            PointSource::At(p) => ends.union(Bounds { low: p, high: p }).padded(),
-            PointSource::Toward(way) => {
-                let low = DVec3::select(way.cmplt(DVec3::ZERO), DVec3::NEG_INFINITY, ends.padded().low);
-                let high = DVec3::select(way.cmpgt(DVec3::ZERO), DVec3::INFINITY, ends.padded().high);
-                Bounds { low, high }
-            }
-        }
-    }
-
-    /// The lines of all ways.
-    fn pencil(&self) -> Pencil {
-        match self.source {
-            PointSource::At(lamp) => ([lamp, DVec3::ZERO], [self.a - lamp, self.b - self.a]),
-            PointSource::Toward(way) => ([self.a, self.b - self.a], [way, DVec3::ZERO]),
-        }
-    }
-
-    /// The same in a member's coordinates.
-    pub(crate) fn local_pencil(&self, member: &Member) -> Pencil {
-        let ([o, along], ways) = self.pencil();
-        let local = |v: DVec3| member.local_vector(v);
-        ([member.local(o), local(along)], ways.map(local))
-    }
-
-    /// The point of line s of [`Self::pencil`] at t, if it lies between segment and source.
-    pub(crate) fn pass(&self, s: f64, t: f64) -> Option<DVec3> {
-        let place = self.a + (self.b - self.a) * s;
-        match self.source {
-            // With some room for what is found inexactly.
-            PointSource::At(lamp) => (t > -1e-6 && t < 1.0 + 1e-6).then(|| lamp + (place - lamp) * t),
-            PointSource::Toward(way) => (t > -1e-6 * self.size).then(|| place + way * t),
-        }
-    }
-
-    /// Whether its plane misses a box.
-    fn misses(&self, bounds: &Bounds) -> bool {
-        let Some(normal) = self.normal() else { return false };
-        let centre = (bounds.low + bounds.high) * 0.5;
-        let reach = normal.abs().dot(bounds.high - centre);
-        // Products of coordinates, each rounded, and the normal likewise.
-        let rounding = 1e-12 * (self.size + centre.abs().max_element());
-        normal.dot(centre - self.a).abs() > reach + rounding
-    }
-
-    /// Whether a ball comes near any of the lines o + s o' + t (d + s d'), 0 ≤ s ≤ 1: whether
-    /// r² d² − |(o − c) × d|² ≥ 0 for any of them.
-    fn reaches(([o, along], [d, turn]): Pencil, (centre, radius): (DVec3, f64)) -> bool {
-        let o = o - centre;
-        let near = square(d, turn).map(|c| c * radius * radius * (1.0 + 1e-6));
-        let depth = difference(near, square(o.cross(d), along.cross(d) + o.cross(turn)));
-        let middle = depth[0] + 0.5 * depth[1] + 0.25 * depth[2];
-        middle >= 0.0 || quadratic(depth).iter().any(|s| (0.0..=1.0).contains(s))
-    }
-
-    /// Whether a box has a point in common with the fan's plane, near its ways.
-    fn passes(&self, bounds: &Bounds) -> bool {
-        let ball = ((bounds.low + bounds.high) * 0.5, (bounds.high - bounds.low).length() * 0.5);
-        !self.misses(bounds) && Self::reaches(self.pencil(), ball)
-    }
-
-    /// Whether a wall stands on the way from a place to the source.
-    fn blocked(&self, compound: &Compound, s: f64) -> bool {
-        let from = self.a + (self.b - self.a) * s;
-        let (way, end) = match self.source {
-            PointSource::At(lamp) => (lamp - from, 1.0),
-            PointSource::Toward(way) => (way, f64::INFINITY),
-        };
-        let touch = TOUCH * self.size / way.length();
-        let mut blocked = false;
-        compound.walls((from, way), |wall| {
-            let near = touch + wall.end.error;
-            blocked = wall.end.t > near && wall.end.t < end - near;
-            blocked || wall.end.t >= end
-        });
-        blocked
-    }
-}
 
 /// Working memory.
 #[derive(Default)]
@@ -211,8 +72,9 @@ impl Fan {
     /// Collects where the body's shadow may begin or end, between 0 and 1; false when it is nowhere near.
     fn places(&self, body: &Ready, work: &mut Work) -> bool {
         let Work { places, sections } = work;
-        (places.clear(), sections.clear());
-                let compound = &body.compound;
+        places.clear();
+        sections.clear();
+        let compound = &body.compound;
         let mut see = |s: f64, at: DVec3, members: [u32; 2]| {
             if s > 0.0 && s < 1.0 && compound.shows(at, members) {
                 places.push(s);
@@ -220,8 +82,8 @@ impl Fan {
         };
         let sheet = Sheet::new(self, &body.bounds);
         let mut any = false;
-        for (member, i) in body.compound.members.iter().zip(0..) {
-            let near = Self::reaches(self.local_pencil(member), member.ball);
+        for ((member, bounds), i) in body.compound.members.iter().zip(&body.boxes).zip(0..) {
+            let near = !self.misses(bounds) && Self::reaches(self.local_pencil(member), member.ball);
             any |= near;
             let sheet = sheet.as_ref().filter(|_| near);
             let see = |s, at| see(s, at, [i; 2]);
