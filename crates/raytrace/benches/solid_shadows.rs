@@ -3,7 +3,8 @@
 //! `cargo bench -p keikan-raytrace --bench solid_shadows`. *Balls* are the four of figure 2.8 (d) on its floor, seen by
 //! its first lamp; *garden*, 400 solids of all kinds in a square of 20 m; *notched*, 100 set operations of six members
 //! each. The segments lie on the floor, 4 cm to 5 m long, anywhere or (*far*) where no shadow is. One thread; the
-//! median of five passes.
+//! median of five passes. On two idle cores a segment among the balls costs 0.3 to 0.9 µs, one far from them 0.02 µs, one
+//! in the garden 1.2 to 8 µs, and beside the notched ones 2.5 to 29 µs, a long one for all that it passes.
 
 use std::{f64::consts::TAU, hint::black_box, time::Instant};
 
