@@ -8,10 +8,11 @@ use light::{
 use crate::transmit;
 
 use super::{
-    Acceleration, Crossing, Ready, Solids,
+    Acceleration, Crossing, Solids,
     csg::{Compound, Wall},
+    fan::Fan,
     member::U,
-    shadow::{Fan, MARGIN, Shadow},
+    shadow::Work,
 };
 
 impl Compound {
@@ -199,34 +200,6 @@ impl Solids {
     }
 }
 
-impl Fan {
-    /// What is behind a body's hulls is to be asked for, what is behind its cores is dark.
-    fn stretches(&self, body: &Ready, out: &mut Vec<Stretch>) {
-        let (mut lamp, mut any) = (false, false);
-        for shell in &body.shells {
-            let (from, to) = match self.shadow(shell, &body.bounds, MARGIN) {
-                Shadow::Nothing => continue,
-                Shadow::Stretch(from, to) => (from, to),
-                Shadow::Lamp => {
-                    lamp = true;
-                    (0.0, 1.0)
-                }
-            };
-            any = true;
-            out.push(Stretch { from, to, dark: false });
-        }
-        // With a lamp and a place both in the body there need be no wall between them.
-        if lamp || !any {
-            return;
-        }
-        for core in &body.cores {
-            if let Shadow::Stretch(from, to) = self.shadow(core, &body.bounds, -MARGIN) {
-                out.push(Stretch { from, to, dark: true });
-            }
-        }
-    }
-}
-
 impl Occlude for Solids {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let line = line(segment);
@@ -241,7 +214,8 @@ impl Occlude for Solids {
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
         let fan = Fan::new(source, a, b);
-        let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], out);
+        let mut work = Work::default();
+        let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], &mut work, out);
         match self.acceleration {
             Acceleration::Boxes => self.boxes.within(fan.bounds(), visit),
             Acceleration::None => (0..self.bodies.len() as u32).for_each(&mut visit),

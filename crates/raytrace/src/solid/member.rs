@@ -24,8 +24,6 @@ pub(crate) struct Member {
     pub(crate) surface: Surface,
     /// Around the shape, in its own coordinates.
     pub(crate) hull: Solid,
-    /// Within the shape, likewise.
-    pub(crate) core: Solid,
     /// Centre and radius of a ball around the shape, in its own coordinates.
     pub(crate) ball: (DVec3, f64),
     pub(crate) world_from_solid: DAffine3,
@@ -65,7 +63,7 @@ impl Member {
         material: u32,
         positive: bool,
     ) -> Result<Self, Wrong> {
-        let (surface, hull, core) = prepare(shape)?;
+        let (surface, hull) = prepare(shape)?;
         let ball = match surface {
             Surface::Ball => (DVec3::ZERO, 1.0),
             _ => hull.ball(),
@@ -97,7 +95,6 @@ impl Member {
         Ok(Self {
             surface,
             hull,
-            core,
             ball,
             world_from_solid,
             solid_from_world,
@@ -111,8 +108,13 @@ impl Member {
     }
 
     /// A point in the shape's coordinates.
-    fn local(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn local(&self, point: DVec3) -> DVec3 {
         self.solid_from_world * (point - self.world_from_solid.translation)
+    }
+
+    /// A direction in the shape's coordinates.
+    pub(crate) fn local_vector(&self, way: DVec3) -> DVec3 {
+        self.solid_from_world * way
     }
 
     /// The line in the shape's coordinates; none when it passes the shape's ball.
@@ -139,6 +141,13 @@ impl Member {
             error,
             reach: 2.0 * radius / length2.sqrt(),
         })
+    }
+
+    /// Whether it holds a point; none for points near its surface, to 1e-6 of its size.
+    pub(crate) fn holds(&self, point: DVec3) -> Option<bool> {
+        let beyond = self.surface.beyond(self.local(point)) / self.ball.1;
+        // Said so that what is not a number is near.
+        (beyond.abs() > 1e-6).then_some(beyond < 0.0)
     }
 
     /// Where the line is inside.
@@ -183,14 +192,14 @@ fn frobenius(m: &DMat3) -> f64 {
     (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }
 
-/// Its surface, a polyhedron around it and one within it.
-fn prepare(shape: &Shape) -> Result<(Surface, Solid, Solid), Wrong> {
+/// Its surface, and a polyhedron around it.
+fn prepare(shape: &Shape) -> Result<(Surface, Solid), Wrong> {
     let frustum = |top: f64| {
         let surface = Surface::Frustum { taper: 1.0 - top };
-        Ok((surface, hull::around_frustum(top), hull::within_frustum(top)))
+        Ok((surface, hull::around_frustum(top)))
     };
     match shape {
-        Shape::Sphere => Ok((Surface::Ball, hull::around_ball(), hull::within_ball())),
+        Shape::Sphere => Ok((Surface::Ball, hull::around_ball())),
         Shape::Cylinder => frustum(1.0),
         Shape::Cone => frustum(0.0),
         Shape::Frustum { top } if top.is_finite() && *top >= 0.0 => frustum(*top),
@@ -205,7 +214,7 @@ fn prepare(shape: &Shape) -> Result<(Surface, Solid, Solid), Wrong> {
             let planes: Option<Vec<Plane>> = planes.iter().map(unit).collect();
             let planes = planes.ok_or(Wrong::Plane)?;
             let hull = hull::polyhedron(&planes)?;
-            Ok((Surface::Planes(planes.into()), hull.clone(), hull))
+            Ok((Surface::Planes(planes.into()), hull))
         }
     }
 }
