@@ -236,37 +236,28 @@ impl Looks {
         radiance(only)
     }
 
-    fn sum_of_many(
-        &mut self,
-        group: &[Piece],
-        alike: f32,
-        radiance: impl Fn(&Piece) -> Spectrum,
-    ) -> Spectrum {
+    fn sum_of_many(&mut self, group: &[Piece], alike: f32, radiance: impl Fn(&Piece) -> Spectrum) -> Spectrum {
         let few = (group.len() / 4).max(FIRST).min(group.len());
         let decided = self.decided.get(self.next).copied();
+        self.next += 1;
+        let (mut sum, mut share) = (Spectrum::ZERO, 0.0);
         let mut spread = Spread::default();
-        let mut sum = Spectrum::ZERO;
-        let mut looked = 0.0;
         let mut count = 0;
-        let end = decided.unwrap_or(group.len());
-        for piece in &group[..end] {
-            if count == few && decided.is_none() && alike > 0.0 && spread.is_within(alike) {
+        for piece in &group[..decided.unwrap_or(group.len())] {
+            if count == few && decided.is_none() && spread.is_within(alike) {
                 break;
             }
             let part = radiance(piece);
-            if piece.share > 0.0 {
-                spread.add(part * piece.share.recip());
-            }
+            spread.add(part * piece.share.max(f32::MIN_POSITIVE).recip());
             sum += part;
-            looked += piece.share;
+            share += piece.share;
             count += 1;
         }
         if decided.is_none() {
             self.decided.push(count);
         }
-        self.next += 1;
         let all: f32 = group.iter().map(|piece| piece.share).sum();
-        if count < group.len() && looked > 0.0 { sum * (all / looked) } else { sum }
+        if count < group.len() && share > 0.0 { sum * (all / share) } else { sum }
     }
 }
 
@@ -283,9 +274,9 @@ impl Spread {
         self.0 = Some([each(f32::min, least), each(f32::max, most)]);
     }
 
-    /// Whether no band differs by more than a share of the largest.
+    /// Whether no band differs by more than a share of the largest; never for a share of 0.
     fn is_within(&self, share: f32) -> bool {
-        self.0.is_none_or(|[least, most]| (most - least).max() <= share * most.max())
+        share > 0.0 && self.0.is_none_or(|[least, most]| (most - least).max() <= share * most.max())
     }
 }
 

@@ -61,11 +61,11 @@ impl Localised {
         Self { scanline, bodies, hulls, base, samples: 1, rays: AtomicU64::new(0), pixels: AtomicU64::new(0) }
     }
 
-    /// Looks at what shows of a body in a pixel in `samples` places instead of one ([`Piece::samples`]), or in as many
-    /// more as it takes for one on each line: what bodies show has edges of its own.
+    /// Looks at what shows of a body in a pixel in `samples` places instead of one ([`Piece::samples`]), 65,535 at
+    /// most: what bodies show has edges of its own.
     #[must_use]
     pub fn with_samples(self, samples: u32) -> Self {
-        Self { samples, ..self }
+        Self { samples: samples.min(u32::from(u16::MAX)), ..self }
     }
 
     /// The scanline that sees the faces.

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::Ordering;
 
 use glam::DVec2;
-use light::{Hit, Piece};
+use light::{Hit, Piece, sampling};
 
 use super::Localised;
 use super::hulls::{Interval, Projected, unite};
@@ -27,10 +27,8 @@ struct Found {
     runs: Vec<Run>,
 }
 
-/// Van der Corput's sequence in base 2, within \[0, 1).
-fn inverse(number: u32) -> f64 {
-    f64::from(number.reverse_bits()) / 4_294_967_296.0
-}
+/// Keeps the places at which bodies are looked at apart from other random choices.
+const PURPOSE: u32 = 0xB0;
 
 /// Where to look for bodies.
 struct Place<'a> {
@@ -197,11 +195,11 @@ impl Localised {
         at_most_one(&mut pieces[first..]);
     }
 
-    /// Hits on what shows of a body in a pixel, several in each line's strip, with their parts of its share; the parts
-    /// sum to one. What bodies show has edges of its own: creases, shadows, all that mirrors and glass show.
+    /// Hits spread over what shows of a body in a pixel, with their parts of its share, which sum to one. What bodies
+    /// show has edges of its own: creases, shadows, all that mirrors and glass show.
     ///
-    /// The hits are Hammersley's points of all parts of strips, turned across the pixel by the pixel's own number; each
-    /// round takes one part of every strip, another one in each, so that rounds are spread evenly as well.
+    /// Points of Sobol's sequence, scrambled by the pixel, are laid over the strips, one below the other, so that equal
+    /// areas have equal numbers and the first few are spread over the pixel as well.
     fn spread(
         &self,
         [column, row]: [u32; 2],
@@ -211,37 +209,38 @@ impl Localised {
     ) -> Vec<(f64, Hit)> {
         let body = cover.face - self.base;
         let left = f64::from(column + self.scanline.margin);
-        let strips: Vec<(&Found, &Run)> = found
+        let mut total = 0.0;
+        // With the area of all before it.
+        let strips: Vec<(f64, &Found, &Run)> = found
             .iter()
             .flat_map(|found| found.runs.iter().map(move |run| (found, run)))
-            .filter(|(_, run)| run.body == body && run.x[0].max(left) < run.x[1].min(left + 1.0))
+            .filter(|(_, run)| run.body == body)
+            .filter_map(|(found, run)| {
+                let area = (run.x[1].min(left + 1.0) - run.x[0].max(left)) * found.weight;
+                (area > 0.0).then(|| {
+                    total += area;
+                    (total - area, found, run)
+                })
+            })
             .collect();
-        let rounds = self.samples.div_ceil(strips.len().max(1) as u32).max(1).next_power_of_two();
-        let turn = f64::from(seed(column, row, cover.face)) / 4_294_967_296.0;
+        let own = seed(column, row, cover.face);
         let mut hits = Vec::new();
-        for round in 0..rounds {
-            for (number, (found, run)) in (0u32..).zip(&strips) {
-                let part = (round + number) % rounds;
-                let across = (inverse(part) + inverse(number) / f64::from(rounds) + turn).fract();
-                let along = (f64::from(part) + 0.5) / f64::from(rounds);
-                let Some((at, distance)) = self.sample(body, (found, run), left, [across, along], sight)
-                else {
-                    continue;
-                };
-                let width = run.x[1].min(left + 1.0) - run.x[0].max(left);
+        for i in 0..self.samples {
+            let [across, down] = sampling::sobol(i, sampling::shift(own, PURPOSE));
+            let at = down * total;
+            let number = strips.partition_point(|(before, ..)| *before <= at);
+            let Some(&(before, found, run)) = strips.get(number.wrapping_sub(1)) else { break };
+            let end = strips.get(number).map_or(total, |(before, ..)| *before);
+            let along = (at - before) / (end - before);
+            if let Some((at, distance)) = self.sample(body, (found, run), left, [across, along], sight) {
                 let mut hit = self.hit_at(body, at, distance);
-                hit.place.seed =
-                    seed(column, row, cover.face) ^ (hits.len() as u32).wrapping_mul(0x9e37_79b9);
-                hits.push((width * found.weight, hit));
+                hit.place.seed = own ^ i.wrapping_mul(0x9e37_79b9);
+                hits.push(hit);
             }
         }
-        let all: f64 = hits.iter().map(|(part, _)| part).sum();
-        let each = (hits.len() as f32).sqrt().recip();
-        hits.iter_mut().for_each(|(part, hit)| {
-            *part /= all;
-            hit.width *= each;
-        });
-        hits
+        let part = (hits.len() as f64).recip();
+        let narrower = |hit: Hit| Hit { width: hit.width * part.sqrt() as f32, ..hit };
+        hits.into_iter().map(|hit| (part, narrower(hit))).collect()
     }
 
     /// Where a body is met in a strip, at shares of the way across and along what shows of it in the pixel from `left`
