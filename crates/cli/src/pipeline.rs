@@ -236,7 +236,12 @@ impl Looks {
         radiance(only)
     }
 
-    fn sum_of_many(&mut self, group: &[Piece], alike: f32, radiance: impl Fn(&Piece) -> Spectrum) -> Spectrum {
+    fn sum_of_many(
+        &mut self,
+        group: &[Piece],
+        alike: f32,
+        radiance: impl Fn(&Piece) -> Spectrum,
+    ) -> Spectrum {
         let few = (group.len() / 4).max(FIRST).min(group.len());
         let decided = self.decided.get(self.next).copied();
         self.next += 1;
