@@ -137,7 +137,7 @@ impl Pipeline {
             let start = (row - first) as usize * width * lit_by.len();
             let mut looks = Looks::default();
             for (layer, (_, sources)) in lit_by.iter().enumerate() {
-                let around = Around { pipeline: self, sources, known: Known::default() };
+                let around = Around { pipeline: self, sources, known: Known::default(), face: [u32::MAX; 2] };
                 let line = &mut pixels[start + layer * width..][..width];
                 looks.rewind();
                 self.shade_row((row, columns.start), pieces, &around, &mut looks, line, monitor);
@@ -292,6 +292,8 @@ struct Around<'a> {
     sources: &'a [usize],
     /// Of the hit that is being shaded; nothing is known of what its further rays meet.
     known: Known,
+    /// Instance and triangle of that hit.
+    face: [u32; 2],
 }
 
 impl Around<'_> {
@@ -301,16 +303,17 @@ impl Around<'_> {
             let source = &self.pipeline.sources[i].light;
             let bit = if i < 64 { 1u64 << i } else { 0 };
             if self.known.lit & bit != 0 {
-                source.arrivals(place, &Vacuum, receive);
+                source.arrivals_on(self.face, place, &Vacuum, receive);
             } else if self.known.dark & bit == 0 {
-                source.arrivals(place, &*self.pipeline.occlude, receive);
+                source.arrivals_on(self.face, place, &*self.pipeline.occlude, receive);
             }
         }
     }
 
     fn leaves(&self, hit: &light::Hit) -> Spectrum {
+        let around = Self { face: [hit.instance, hit.triangle], ..*self };
         match self.pipeline.shade.get(hit.material as usize) {
-            Some(shade) => shade.radiance(hit, self),
+            Some(shade) => shade.radiance(hit, &around),
             None => Spectrum::ZERO,
         }
     }

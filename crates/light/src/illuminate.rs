@@ -44,6 +44,19 @@ pub trait Illuminate: Send + Sync {
     /// Reports everything that arrives at `place`.
     fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival));
 
+    /// The same for a place on triangle \[instance, triangle\] of the geometry, where that is known: for sources that
+    /// keep by faces what they have found before.
+    fn arrivals_on(
+        &self,
+        face: [u32; 2],
+        place: &Place,
+        occlude: &dyn Occlude,
+        receive: &mut dyn FnMut(Arrival),
+    ) {
+        let _ = face;
+        self.arrivals(place, occlude, receive);
+    }
+
     /// Radiance of the source itself where `ray` leaves the scene unhindered \[W m⁻² sr⁻¹ nm⁻¹\]; 0 for
     /// sources too small to be seen.
     fn radiance(&self, ray: &Ray) -> Spectrum {
