@@ -2,7 +2,6 @@
 //! error for the time.
 
 use std::path::Path;
-use std::time::Instant;
 
 use keikan::pipeline::{Monitor, Pipeline, Region};
 use keikan_tests::{build, luminances};
@@ -10,12 +9,12 @@ use keikan_tests::{build, luminances};
 const SIZE: (u32, u32) = (512, 384);
 
 /// Rays a pixel of the converged picture.
-const CONVERGED: &str = "400";
+const CONVERGED: &str = "256";
 
 type Knobs = [(&'static str, &'static str)];
 
 /// Four samples a pixel in all of them: rays in case I, lines and places on bodies in the others.
-const CASES: [(&str, &Knobs); 5] = [
+const CASES: [(&str, &Knobs); 6] = [
     (
         "I rays only",
         &[
@@ -30,6 +29,7 @@ const CASES: [(&str, &Knobs); 5] = [
     ("III + boxes, view", &[("accelerate", "view"), ("shadows", "rays"), FOUR_LINES, FOUR_PLACES]),
     ("IV + boxes, shadows", &[("shadows", "rays"), FOUR_LINES, FOUR_PLACES]),
     ("IV + intervals", &[FOUR_LINES, FOUR_PLACES]),
+    ("default", &[]),
 ];
 
 const FOUR_LINES: (&str, &str) = ("sub-scanlines", "4");
@@ -43,17 +43,27 @@ fn scene(lights: usize) -> scene::Scene {
     scene::load(&root.join(format!("fig-2-8d-{lights}.toml"))).expect("the thesis' scene")
 }
 
-/// A picture, and the seconds it took: the least of `runs`.
+/// A picture, and the processor seconds it took: the least of `runs`. On a busy machine these say more than a clock.
 fn shot(pipeline: &Pipeline, runs: usize) -> (Vec<f32>, f64) {
     let whole = Region { columns: 0..SIZE.0, rows: 0..SIZE.1 };
     let once = || {
-        let start = Instant::now();
+        let start = processor_seconds();
         let film = pipeline.render(&whole, false, &Monitor::default()).expect("nobody interrupts");
-        (film, start.elapsed().as_secs_f64())
+        (film, processor_seconds() - start)
     };
     let shots = (0..runs).map(|_| once());
     let (film, seconds) = shots.min_by(|a, b| a.1.total_cmp(&b.1)).expect("at least one run");
     (luminances(&film), seconds)
+}
+
+/// Processor time of this process so far \[s\], all threads together, where the system tells it (`utime` and `stime` of
+/// Linux, 100 a second); else the time of day.
+fn processor_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<&str> = stat.rsplit(") ").next().unwrap_or("").split(' ').collect();
+    let ticks = |i: usize| fields.get(i).and_then(|field| field.parse::<f64>().ok());
+    let of_day = || std::time::UNIX_EPOCH.elapsed().map_or(0.0, |since| since.as_secs_f64());
+    ticks(11).zip(ticks(12)).map_or_else(of_day, |(user, system)| (user + system) / 100.0)
 }
 
 /// √mean (a − b)², relative to the 99th percentile of b, which is shown as white.
@@ -73,7 +83,7 @@ pub(crate) fn table() {
     println!("(RMSE of the whole picture against {CONVERGED} rays a pixel; white = 1)");
     println!(
         "{:<7} {:<20} {:>9} {:>10} {:>8} {:>9}",
-        "lights", "case", "seconds", "/ case II", "thesis", "RMSE"
+        "lights", "case", "cpu s", "/ case II", "thesis", "RMSE"
     );
     for lights in [3, 2, 1] {
         let scene = scene(lights);
@@ -86,9 +96,12 @@ pub(crate) fn table() {
             let error = rmse(seen, &converged);
             println!("{lights:<7} {name:<20} {took:>9.3} {:>10.3} {thesis:>8} {error:>9.5}", took / second);
         }
+        println!("        I / IV {:.1}, I / default {:.1}", shots[0].1 / shots[3].1, shots[0].1 / shots[5].1);
         let same = shots[1].0 == shots[2].0 && shots[2].0 == shots[3].0;
         println!("        II, III and IV are {} to the bit", if same { "the same" } else { "NOT the same" });
-        trade(lights, shots[0].1, &make, &converged);
+        if lights == 3 {
+            trade(lights, shots[0].1, &make, &converged);
+        }
     }
 }
 
