@@ -118,6 +118,12 @@ pub const KNOBS: &[Knob] = &[
         doc: "shadow rays over lamps with an extent; 1 = their middle, i.e. no penumbra; 4, 16, 64, 256 leave 14, 3.1, 1.1, 0.3 % of the whole lamp as noise in the penumbra of a straight edge, none elsewhere; time grows with it",
     },
     Knob {
+        name: "lamp.glints",
+        domain: Domain::Choice(&["shown", "hidden"]),
+        presets: ["shown"; 3],
+        doc: "whether mirrors and glass show lamps without extent, as glints a sample wide; rougher surfaces have their highlights in any case",
+    },
+    Knob {
         name: "sky.model",
         domain: Domain::Choice(&["scene", "clear", "overcast", "uniform", "none"]),
         presets: ["scene"; 3],
@@ -144,7 +150,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
-        presets: ["4", "16", "64"],
+        presets: ["4", "8", "64"],
         doc: "places at which a curved, mirroring or clear [[solid]] is looked at in a pixel, where a fourth of them do not look alike",
     },
     Knob {

@@ -15,8 +15,9 @@ pub enum Arrival {
         toward: Vec3,
         /// Irradiance on a plane that *faces* the source \[W m⁻² nm⁻¹\].
         irradiance: Spectrum,
-        /// Angular radius of the source \[rad\], by which highlights are no smaller than it; 0 = a point.
-        radius: f32,
+        /// Angular radius of the source \[rad\], which mirrors show as a disc; 0 = a point, of which they show a glint as
+        /// wide as the bundle of rays that meets it; none = not to be seen in mirrors.
+        radius: Option<f32>,
     },
     /// From many directions, already weighed with the cosine at the place's own normal.
     Field {

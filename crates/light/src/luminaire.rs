@@ -172,6 +172,8 @@ pub struct Luminaire {
     pub distribution: Distribution,
     /// Spectral intensity per candela \[W sr⁻¹ nm⁻¹ cd⁻¹\]: a spectrum whose luminance is 1.
     pub spectrum: Spectrum,
+    /// Whether mirrors show it, as a glint; it has no extent to show.
+    pub glints: bool,
 }
 
 impl Luminaire {
@@ -195,7 +197,7 @@ impl Illuminate for Luminaire {
             receive(Arrival::Beam {
                 toward: segment.direction,
                 irradiance: intensity * transmittance * (1.0 / distance2),
-                radius: 0.0,
+                radius: self.glints.then_some(0.0),
             });
         }
     }

@@ -21,6 +21,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
             world_from_luminaire: light.world_from_light.as_mat3(),
             distribution: (*light.distribution).clone(),
             spectrum: colour(&light.spectrum),
+            glints: settings.choice("lamp.glints") == "shown",
         }),
         beam: true,
         point: Some(PointSource::At(light.position)),

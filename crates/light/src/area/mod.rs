@@ -135,7 +135,7 @@ impl Illuminate for AreaLight {
         if irradiance.is_finite() && !irradiance.is_zero() {
             // As wide as a disc of its solid angle.
             let radius = (vector.length() / std::f64::consts::PI).sqrt() as f32;
-            receive(Arrival::Beam { toward, irradiance, radius });
+            receive(Arrival::Beam { toward, irradiance, radius: Some(radius) });
         }
     }
 }

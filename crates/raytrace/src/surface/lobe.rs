@@ -39,14 +39,15 @@ impl Facets {
     ///
     ///   rough    α'² = α² + 2 σ² + 2 ρ²,   σ = δ/2 (Kaplanyan et al. 2016), ρ = radius/4 (a disc's along an axis)
     ///   smooth   R² = δ²/2 + radius²/2:    the least circle around a square bundle, and the kernel of a disc's variance
-    fn of(&self, radius: f32) -> Slopes {
+    fn of(&self, radius: Option<f32>) -> Slopes {
+        let shown = if radius.is_some() { 1.0 } else { 0.0 };
+        let radius = radius.unwrap_or(0.0);
         let more = 0.5 * self.turn * self.turn;
         let widest = self.width.max(BLUREST);
         Slopes {
             rough2: (self.width * self.width + more + 0.125 * radius * radius).min(widest * widest),
             smooth2: (more + 0.5 * radius * radius).min(BLUREST * BLUREST),
-            // An ideal mirror shows an ideal point as a point, which has no area.
-            shares: [self.rough, if radius > 0.0 { 1.0 - self.rough } else { 0.0 }],
+            shares: [self.rough, shown * (1.0 - self.rough)],
         }
     }
 }
@@ -94,8 +95,8 @@ pub(crate) struct Lobe {
 ///   G/(4 cos_i cos_o) = ½ / (cos_i √(α² + (1−α²) cos_o²) + cos_o √(α² + (1−α²) cos_i²))
 ///
 /// Walter et al. 2007, Heitz 2014. Symmetric in the two directions.
-/// `radius` is that of the source \[rad\].
-pub(crate) fn lobe(normal: Vec3, out: Vec3, toward: Vec3, facets: &Facets, radius: f32) -> Lobe {
+/// `radius` is that of the source \[rad\], none where mirrors do not show it.
+pub(crate) fn lobe(normal: Vec3, out: Vec3, toward: Vec3, facets: &Facets, radius: Option<f32>) -> Lobe {
     let facets = facets.of(radius);
     let half = (out + toward).normalize_or(normal);
     // sin² from the cross product: 1 − cos² would leave nothing of a narrow lobe in f32.
@@ -158,7 +159,7 @@ mod tests {
         for i in 0..steps * steps {
             let cos = ((i / steps) as f64 + 0.5) / steps as f64;
             let toward = direction(cos.sqrt(), 2.0 * PI * ((i % steps) as f64 + 0.5) / steps as f64);
-            sum += f64::from(lobe(Vec3::Z, out, toward, facets, 0.0).density);
+            sum += f64::from(lobe(Vec3::Z, out, toward, facets, None).density);
         }
         sum * PI / (steps * steps) as f64
     }
@@ -191,31 +192,32 @@ mod tests {
         let top = |roughness, radius| {
             f64::from(lobe(Vec3::Z, Vec3::Z, Vec3::Z, &Facets::new(roughness, 0.0), radius).density)
         };
-        // D(0)/4 = 1/(4 π α²), and the sun's in a mirror 3/(4 π R²); a point in a mirror does not show.
+        // D(0)/4 = 1/(4 π α²), and the sun's in a mirror 3/(4 π R²); an ideal point on an ideal ray has no density.
         let exact = 1.0 / (4.0 * PI * 0.1f64.powi(4));
-        assert!((top(0.1, 0.0) / exact - 1.0).abs() < 1e-5, "f32 rounding of ten operations");
+        assert!((top(0.1, None) / exact - 1.0).abs() < 1e-5, "f32 rounding of ten operations");
         let exact = 3.0 / (2.0 * PI * 0.00465f64.powi(2));
-        assert!((top(0.0, 0.00465) / exact - 1.0).abs() < 1e-5, "f32 rounding of ten operations");
-        assert_eq!(top(0.0, 0.0), 0.0);
+        assert!((top(0.0, Some(0.00465)) / exact - 1.0).abs() < 1e-5, "f32 rounding of ten operations");
+        assert_eq!(top(0.0, Some(0.0)), 0.0);
+        assert_eq!(top(0.0, None), 0.0);
     }
 
     #[test]
     fn a_bundle_spreads_a_highlight_and_keeps_its_light() {
-        for (turn, radius) in [(0.0, 0.02), (0.02, 0.1), (0.1, 0.00465), (0.3, 0.001)] {
-            // ∫ D cos over the half vectors, which is 1 for every distribution: midpoint rule in the tangent of θ_h/2.
+        for (turn, radius) in [(0.0, 0.02), (0.02, 0.1), (0.1, 0.00465), (0.3, 0.0)] {
+            // ∫ D cos over the half vectors, which is 1 for every distribution: dω cos = π d(sin² θ_h), and the midpoint
+            // rule in x with sin² = x³, which puts most points where D is high.
             for roughness in [0.0, 0.03, 0.2] {
-                let facets = Facets::new(roughness, turn).of(radius);
+                let facets = Facets::new(roughness, turn).of(Some(radius));
                 let steps = 200_000;
                 let mut sum = 0.0;
                 for i in 0..steps {
-                    let sin2 = (f64::from(i) + 0.5) / f64::from(steps);
-                    // sin² = x³ puts most points where D is high.
-                    let x = sin2;
+                    let x = (f64::from(i) + 0.5) / f64::from(steps);
                     let density =
                         f64::from(facets.density((x * x * x) as f32, (1.0 - x * x * x).sqrt() as f32));
                     sum += density * PI * 3.0 * x * x / f64::from(steps);
                 }
-                // f32 densities of some ten operations, and a kernel cut off where sin is not quite the angle.
+                // f32 densities of some ten operations each, and steps of 5e-6 in x against features of 0.02 at least: the
+                // worst of these nine is 2e-5.
                 assert!((sum - 1.0).abs() < 1e-4, "{roughness} {turn}: {sum}");
             }
         }

@@ -93,7 +93,7 @@ impl<'a> Local<'a> {
 
     /// f cos for a beam from `toward` \[1/sr\]: what of irradiance facing it leaves towards the eye.
     /// `radius` is that of the source \[rad\].
-    fn reflect(&self, toward: Vec3, radius: f32) -> Spectrum {
+    fn reflect(&self, toward: Vec3, radius: Option<f32>) -> Spectrum {
         let cos = toward.dot(self.normal);
         let fade = terminator(toward.dot(self.face), cos, self.agreement);
         if fade <= 0.0 {

@@ -48,7 +48,7 @@ impl Surroundings for Beams {
             let local = direction(cos, 2.0 * PI * ((i % self.steps) as f32 + 0.5) / self.steps as f32);
             let toward = across * local.x + along * local.z + place.normal * local.y;
             let irradiance = Spectrum::splat(PI / (self.steps * self.steps) as f32 / cos);
-            receive(Arrival::Beam { toward, irradiance, radius: 0.0 });
+            receive(Arrival::Beam { toward, irradiance, radius: None });
         }
     }
 
@@ -62,7 +62,7 @@ struct Lamp(Vec3);
 
 impl Surroundings for Lamp {
     fn arrivals(&self, _: &Place, receive: &mut dyn FnMut(Arrival)) {
-        receive(Arrival::Beam { toward: self.0, irradiance: Spectrum::ONE, radius: 0.0 });
+        receive(Arrival::Beam { toward: self.0, irradiance: Spectrum::ONE, radius: None });
     }
 
     fn radiance(&self, _: &Ray, _: Path) -> Spectrum {
