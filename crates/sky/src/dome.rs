@@ -6,8 +6,8 @@ use glam::Vec3;
 use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use crate::open_sky::OpenSky;
-use crate::pattern::lifted;
 use crate::sampling::{lattice, shift, transmit};
+use crate::sky::lifted;
 use crate::sky_cells::SkyCells;
 use crate::{Pattern, diffuse_illuminance};
 

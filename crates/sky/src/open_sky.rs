@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 
 use crate::Pattern;
-use crate::pattern::lifted;
+use crate::sky::lifted;
 
 /// Intervals of the table over the normal's angle from the zenith (0 to 180°), and over its azimuth from the
 /// sun (0 to 180°): 4° each.

@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::sky::lifted;
+
 /// A standard distribution of luminance over the sky.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
@@ -72,15 +74,6 @@ fn indicatrix(direction: Vec3, sun: Vec3) -> f32 {
     let half_chord = (0.5 * direction.distance(sun)).min(1.0);
     let cos = 1.0 - 2.0 * half_chord * half_chord;
     0.91 + 10.0 * (-6.0 * half_chord.asin()).exp() + 0.45 * cos * cos
-}
-
-/// The direction itself, or where it is below the horizon, the horizon beneath it; −Z for the nadir.
-pub(crate) fn lifted(direction: Vec3) -> Vec3 {
-    if direction.y >= 0.0 {
-        direction
-    } else {
-        Vec3::new(direction.x, 0.0, direction.z).try_normalize().unwrap_or(Vec3::NEG_Z)
-    }
 }
 
 #[cfg(test)]

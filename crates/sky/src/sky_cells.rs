@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use glam::Vec3;
 
 use crate::Pattern;
-use crate::pattern::lifted;
+use crate::sky::lifted;
 
 /// Bands of altitude below the horizon, 5.6° each, where radiance is everywhere the same.
 const GROUND_ROWS: usize = 16;
