@@ -17,14 +17,15 @@
 //! ```
 //! use glam::Vec3;
 //! use light::{Illuminate, Place, Vacuum};
-//! use keikan_sky::{DIAMETER_DEG, Description, Dome, Pattern, Sun, atmosphere};
+//! use keikan_sky::{Conditions, DIAMETER_DEG, Description, Dome, Model, Sun, atmosphere};
 //!
 //! let altitude = 40.0_f64;
 //! let (sin, cos) = altitude.to_radians().sin_cos();
 //! let toward = Vec3::new(0.0, sin as f32, cos as f32); // in the south: north is −Z
 //! let beam = atmosphere::direct_beam(altitude, 0.0, atmosphere::CLEAR_TURBIDITY);
 //! let sun = Sun { toward, irradiance: beam, angular_diameter_deg: DIAMETER_DEG, samples: 16 };
-//! let sky = Dome::new(&Description { sun_horizontal: beam * toward.y, ..Description::new(Pattern::Clear, toward) });
+//! let clear = Model::named("cie-clear").unwrap().sky(&Conditions::new(toward));
+//! let sky = Dome::new(&Description { sun_horizontal: beam * toward.y, ..Description::new(clear) });
 //!
 //! let lawn = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };
 //! let [direct, diffuse] = [&sun as &dyn Illuminate, &sky].map(|s| s.irradiance(&lawn, &Vacuum).luminance());
@@ -32,19 +33,31 @@
 //! ```
 
 pub mod atmosphere;
+pub mod bouguer;
 mod daylight;
+mod distribution;
 mod dome;
+mod general_sky;
+mod luminous;
+mod measured;
+mod model;
 mod open_sky;
-mod pattern;
+mod perez;
 mod sampling;
+mod scale;
 mod sky;
 mod sky_cells;
 mod solar_spectrum;
 mod sun;
 
 pub use daylight::diffuse_illuminance;
-pub use dome::{CLEAR_TEMPERATURE, Description, Dome, GROUND_ALBEDO, OVERCAST_TEMPERATURE, SAMPLES};
-pub use pattern::Pattern;
+pub use distribution::{Distribution, Gradation};
+pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};
+pub use luminous::{Luminous, OVERCAST_TEMPERATURE};
+pub use measured::{LuminanceTable, TableError};
+pub use model::{Conditions, Model};
+pub use perez::{Perez, SOLAR_CONSTANT};
+pub use scale::{Scale, Scaled, horizontal_illuminance};
 pub use sky::Sky;
 pub use solar_spectrum::extraterrestrial;
 pub use sun::{DIAMETER_DEG, Sun};

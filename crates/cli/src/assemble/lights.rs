@@ -3,7 +3,7 @@
 use glam::Vec3;
 use light::{AreaLight, AreaShape, Geometry, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
-use sky::{Description, Dome, Pattern, Sun, atmosphere};
+use sky::{Conditions, Description, Dome, Model, Scale, Sun, atmosphere};
 
 use crate::knobs::Settings;
 use crate::pipeline::Source;
@@ -104,20 +104,24 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
 
 /// The skies that there are.
 pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
-    Pattern::ALL.into_iter().map(Pattern::name)
+    Model::all().map(Model::name)
 }
 
 fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
     let model = plan::sky_model(scene, settings);
-    let pattern = Pattern::named(model)?;
+    let model = Model::named(model)?;
     // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
     let sun = scene.sun.clone().or_else(|| scene.site.sun());
     let sun = sun.as_ref();
     let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
     let shining = scene.sun.as_ref().filter(|sun| risen(sun));
     let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+    let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
+    let conditions = Conditions {
+        scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+        ..Conditions::new(toward_sun)
+    };
     let description = Description {
-        illuminance: scene.sky.as_ref().and_then(|sky| sky.illuminance).map(|lux| lux as f32),
         sun_horizontal,
         albedo: settings.number("sky.albedo") as f32,
         ground_height: match settings.choice("sky.ground") {
@@ -125,7 +129,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
             _ => None,
         },
         samples: settings.integer("sky.rays"),
-        ..Description::new(pattern, toward_sun)
+        ..Description::new(model.sky(&conditions))
     };
     Some(Source {
         name: "sky".to_owned(),

@@ -1,0 +1,43 @@
+//! How much of the sun's light is direct and how much comes from the sky: the formulas of Bouguer and Nagata.
+//!
+//! With P the transmittance of the atmosphere at the zenith, h the sun's altitude, I₀ the sun outside:
+//!
+//!   direct, facing it    I_DN = I₀ P^m
+//!   sky, horizontal      I_SH = I₀ sin h (1 − P^m) (0.66 − 0.32 sin h) (0.5 + (0.4 − 0.3 P) sin h)
+//!
+//! (thesis 4.4; Nagata 1978, after Udagawa.) The thesis has m = 1/sin h, which diverges at the horizon; here it is the
+//! relative air mass of Kasten and Young, [`crate::atmosphere::air_mass`], within 1 % of it from 12° up.
+//!
+//! The formulas are of irradiance over all wavelengths. As illuminances both take the same efficacy here, that of
+//! the sun outside the atmosphere (132 klx for 1361 W/m²), which keeps their ratio as the thesis has it; the blue
+//! sky's true efficacy is higher by about a third.
+
+use crate::atmosphere::air_mass;
+use crate::solar_spectrum;
+
+/// The direct sun facing it, by I₀ (that of the argument and result), the transmittance and the altitude \[degrees\].
+pub fn direct_normal(outside: f64, transmittance: f64, sun_altitude_deg: f64) -> f64 {
+    outside * transmittance.clamp(0.0, 1.0).powf(air_mass(sun_altitude_deg))
+}
+
+/// The sky on the horizontal, in the same way; 0 for a sun below the horizon.
+pub fn sky_horizontal(outside: f64, transmittance: f64, sun_altitude_deg: f64) -> f64 {
+    let p = transmittance.clamp(0.0, 1.0);
+    let sin = sun_altitude_deg.clamp(0.0, 90.0).to_radians().sin();
+    let scattered = 1.0 - p.powf(air_mass(sun_altitude_deg));
+    outside * sin * scattered * (0.66 - 0.32 * sin) * (0.5 + (0.4 - 0.3 * p) * sin)
+}
+
+/// Illuminance of the direct sun facing it \[lx\].
+pub fn sun_illuminance(transmittance: f64, sun_altitude_deg: f64) -> f64 {
+    direct_normal(outside_illuminance(), transmittance, sun_altitude_deg)
+}
+
+/// Illuminance of the sky on the horizontal \[lx\].
+pub fn sky_illuminance(transmittance: f64, sun_altitude_deg: f64) -> f64 {
+    sky_horizontal(outside_illuminance(), transmittance, sun_altitude_deg)
+}
+
+fn outside_illuminance() -> f64 {
+    f64::from(solar_spectrum::extraterrestrial().luminance())
+}
