@@ -2,14 +2,9 @@
 
 use light::Spectrum;
 
+use crate::air::{Air, columns, per_column};
+use crate::slant::GLOBE;
 use crate::solar_spectrum;
-
-/// Height over which air thins out to 1/e, at 15 °C \[m\].
-const AIR_SCALE_HEIGHT: f64 = 8434.0;
-/// Height over which aerosol thins out to 1/e \[m\] (thesis 4.2).
-const AEROSOL_SCALE_HEIGHT: f64 = 1200.0;
-/// Ozone column \[atm-cm\]: 300 Dobson units, the mean over the globe and the year; 220 to 450 occur.
-const OZONE_COLUMN: f64 = 0.3;
 
 /// Ångström's β of the clear air to which the IES' direct illuminances belong (within 3 % of them from 10° up).
 ///
@@ -37,12 +32,16 @@ pub const CLEAR_TURBIDITY: f64 = 0.06;
 /// assert!(evening[0] / noon[0] < evening[7] / noon[7]); // a low sun is red
 /// ```
 pub fn direct_beam(altitude_deg: f64, elevation_m: f64, turbidity_beta: f64) -> Spectrum {
-    let m = air_mass(altitude_deg);
-    let air = m * (-elevation_m / AIR_SCALE_HEIGHT).exp();
-    let aerosol = m * turbidity_beta.max(0.0) * (-elevation_m / AEROSOL_SCALE_HEIGHT).exp();
-    let ozone = ozone_air_mass(altitude_deg) * OZONE_COLUMN;
+    let air = Air { turbidity: turbidity_beta.max(0.0), ..Air::CLEAR };
+    beam(&air, altitude_deg, elevation_m)
+}
+
+/// The same through any air.
+pub fn beam(air: &Air, altitude_deg: f64, elevation_m: f64) -> Spectrum {
+    let columns = columns(air, GLOBE + elevation_m.max(0.0), altitude_deg.to_radians().sin());
     Spectrum::from_fn(|nm| {
-        let depth = air * rayleigh_depth(nm) + aerosol * 1000.0 / nm + ozone * ozone_absorption(nm);
+        let per = per_column(air, nm);
+        let depth: f64 = columns.0.iter().zip(per).map(|(column, per)| column * per).sum();
         solar_spectrum::irradiance(nm) * (-depth).exp()
     })
 }
@@ -66,13 +65,6 @@ pub fn air_mass(altitude_deg: f64) -> f64 {
     let at_horizon = denominator(0.0);
     let slope = (std::f64::consts::PI / 180.0 - A * C * B.powf(-C - 1.0)) / at_horizon;
     (-slope * altitude_deg).exp() / at_horizon
-}
-
-/// Relative air mass of the ozone layer, a thin shell 22 km high over a globe of 6371 km (Robinson 1966).
-fn ozone_air_mass(altitude_deg: f64) -> f64 {
-    const RATIO: f64 = 22.0 / 6371.0;
-    let sin = altitude_deg.clamp(0.0, 90.0).to_radians().sin();
-    (1.0 + RATIO) / (sin * sin + 2.0 * RATIO + RATIO * RATIO).sqrt()
 }
 
 /// Vertical optical depth of the air at sea level, 1013.25 hPa (Bodhaine et al. 1999, eq. 30), 1.
@@ -99,7 +91,7 @@ const OZONE: [f64; 48] = [
 ];
 
 /// Absorption of ozone \[per atm-cm\], linear between the table's entries, constant beyond its ends.
-fn ozone_absorption(nm: f64) -> f64 {
+pub(crate) fn ozone_absorption(nm: f64) -> f64 {
     let at = ((nm - 365.0) / 10.0).clamp(0.0, (OZONE.len() - 1) as f64);
     let first = (at as usize).min(OZONE.len() - 2);
     OZONE[first] + (at - first as f64) * (OZONE[first + 1] - OZONE[first])

@@ -32,24 +32,33 @@
 //! assert!(direct > 40_000.0 && diffuse > 10_000.0); // lx
 //! ```
 
+mod air;
+mod air_sky;
 pub mod atmosphere;
 pub mod bouguer;
 mod daylight;
 mod distribution;
 mod dome;
+mod gauss;
 mod general_sky;
 mod luminous;
 mod measured;
 mod model;
 mod open_sky;
+mod orders;
+mod path;
 mod perez;
+mod phase;
 mod sampling;
 mod scale;
 mod sky;
 mod sky_cells;
+mod slant;
 mod solar_spectrum;
 mod sun;
 
+pub use air::Air;
+pub use air_sky::AirSky;
 pub use daylight::diffuse_illuminance;
 pub use distribution::{Distribution, Gradation};
 pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};
@@ -57,6 +66,7 @@ pub use luminous::{Luminous, OVERCAST_TEMPERATURE};
 pub use measured::{LuminanceTable, TableError};
 pub use model::{Conditions, Model};
 pub use perez::{Perez, SOLAR_CONSTANT};
+pub use phase::Lobes;
 pub use scale::{Scale, Scaled, horizontal_illuminance};
 pub use sky::Sky;
 pub use solar_spectrum::extraterrestrial;

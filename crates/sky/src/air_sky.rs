@@ -1,0 +1,178 @@
+//! The sky as light scattered by air.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::Vec3;
+use light::Spectrum;
+use light::bands::BANDS;
+
+use crate::Sky;
+use crate::air::{Air, Optics, Wide};
+use crate::orders::Orders;
+use crate::path::{Path, add};
+use crate::phase::{Lobes, rayleigh};
+use crate::sky::lifted;
+use crate::slant::GLOBE;
+
+/// Rows of the table over the direction's height y, which are even in √y: closest at the horizon.
+const ROWS: usize = 40;
+/// Columns over (1 − cos azimuth)/2 from the sun, even.
+const COLUMNS: usize = 24;
+/// Places along each ray.
+const STATIONS: usize = 32;
+
+/// The sky as light that molecules and aerosol scatter towards an observer (thesis 4.15, repaired):
+///
+///   L = ∫ [σ_R P_R(θ) + ϖ σ_A P_A(θ)] I_sun e^(−τ(s) − τ(s′)) ds + ∫ [σ_R + ϖ σ_A] Ψ e^(−τ(s)) ds
+///
+/// s from the observer to the place of scattering, s′ from there to the sun, through a round atmosphere, and Ψ what has
+/// been scattered before or comes from the ground. θ is the same along the whole ray, so that a table keeps the three integrals
+/// without their phase functions: they vary slowly over the sky, and the sun's bright surroundings are
+/// exact.
+///
+/// The table is bilinear between 40 heights and 24 azimuths.
+#[derive(Clone, Debug)]
+pub struct AirSky {
+    /// Not below the horizon, for `brightest`.
+    brightest: Vec3,
+    toward_sun: Vec3,
+    /// Unit horizontal vector towards the sun's azimuth.
+    ahead: Vec3,
+    phase: Lobes,
+    /// By row and column: once scattered by molecules and by aerosol, without the phase functions, and the rest.
+    table: Vec<[[Spectrum; 3]; COLUMNS]>,
+}
+
+impl AirSky {
+    /// The sky over an observer `elevation_m` above the sea, 0 to 50 000, under a sun at `toward_sun` (a unit
+    /// vector, at any depth below the horizon).
+    pub fn new(air: &Air, toward_sun: Vec3, elevation_m: f64) -> Self {
+        Self::with(&Optics::new(air), toward_sun, elevation_m)
+    }
+
+    fn with(optics: &Optics, toward_sun: Vec3, elevation_m: f64) -> Self {
+        let r = GLOBE + elevation_m.clamp(0.0, 50_000.0);
+        let sun = altitude(toward_sun);
+        let orders = optics.air.multiple.then(|| Orders::new(optics, sun));
+        let row = |row: usize| {
+            let mu = (row as f64 / (ROWS - 1) as f64).powi(2);
+            let whole = Path::rising(optics, r, mu, 0.0, STATIONS);
+            std::array::from_fn(|column| {
+                let across = 1.0 - 2.0 * column as f64 / (COLUMNS - 1) as f64;
+                let between = mu * sun.sin() + (1.0 - mu * mu).sqrt() * sun.cos() * across;
+                let view = View { optics, orders: orders.as_ref(), sun: sun.sin(), between };
+                view.integrals(&whole).map(|wide| Spectrum(wide.map(|x| x as f32)))
+            })
+        };
+        let brightest = lifted(toward_sun);
+        Self {
+            brightest,
+            toward_sun,
+            ahead: Vec3::new(brightest.x, 0.0, brightest.z).try_normalize().unwrap_or(Vec3::NEG_Z),
+            phase: optics.air.aerosol_phase,
+            table: (0..ROWS).map(row).collect(),
+        }
+    }
+}
+
+/// Altitude of a unit vector \[rad\].
+fn altitude(v: Vec3) -> f64 {
+    let [x, y, z] = v.to_array().map(f64::from);
+    y.atan2(x.hypot(z)).clamp(-FRAC_PI_2, FRAC_PI_2)
+}
+
+/// A ray under a sun.
+struct View<'a> {
+    optics: &'a Optics,
+    orders: Option<&'a Orders>,
+    /// Sine of the sun's altitude at the observer.
+    sun: f64,
+    /// Cosine between ray and sun.
+    between: f64,
+}
+
+impl View<'_> {
+    /// The three integrals along a ray that rises from the observer.
+    fn integrals(&self, whole: &Path) -> [Wide; 3] {
+        let mut sums = [[0.0; BANDS]; 3];
+        let lit = self.lit_from(whole);
+        let part;
+        let path = if lit > 0.0 {
+            part = Path::rising(self.optics, whole.r, whole.mu, lit, STATIONS);
+            &part
+        } else {
+            whole
+        };
+        for station in path.stations.iter().filter(|_| lit < 1.0) {
+            let beam =
+                self.optics.sunlight(station.r, path.sun_at(station.s, station.r, self.sun, self.between));
+            add(&mut sums[0], &station.scatter[0], &beam, 1.0);
+            add(&mut sums[1], &station.scatter[1], &beam, 1.0);
+        }
+        if let Some(orders) = self.orders {
+            for station in &whole.stations {
+                let sin = whole.sun_at(station.s, station.r, self.sun, self.between);
+                let field = orders.at(station.r - GLOBE, sin);
+                add(&mut sums[2], &station.scatter[0], &field, 1.0);
+                add(&mut sums[2], &station.scatter[1], &field, 1.0);
+            }
+        }
+        sums
+    }
+
+    /// Where the ray leaves the globe's shadow, by t of [`Path::rising`]: 0 when it starts in the light, 1 when it
+    /// stays dark. Once out it stays out.
+    fn lit_from(&self, path: &Path) -> f64 {
+        let lit = |t: f64| {
+            let rise = (GLOBE + self.optics.air.top - path.r) * t.powi(4);
+            let level = path.r * path.mu;
+            let square = rise * (2.0 * path.r + rise);
+            let s = (level * level + square).sqrt() - level;
+            let r = path.r + rise;
+            Optics::risen(r, path.sun_at(s, r, self.sun, self.between)) > 0.0
+        };
+        if lit(0.0) {
+            return 0.0;
+        }
+        if !lit(1.0) {
+            return 1.0;
+        }
+        let [mut dark, mut light] = [0.0, 1.0];
+        for _ in 0..40 {
+            let middle = 0.5 * (dark + light);
+            *(if lit(middle) { &mut light } else { &mut dark }) = middle;
+        }
+        dark
+    }
+}
+
+impl Sky for AirSky {
+    fn radiance(&self, direction: Vec3) -> Spectrum {
+        let direction = lifted(direction);
+        let up = direction.y.min(1.0).sqrt() * (ROWS - 1) as f32;
+        // (1 − cos azimuth)/2, any at the zenith.
+        let level = direction.x.hypot(direction.z);
+        let cos = if level > 0.0 { direction.dot(self.ahead) / level } else { 0.0 };
+        let around = (0.5 - 0.5 * cos).clamp(0.0, 1.0) * (COLUMNS - 1) as f32;
+        let (i, j) = ((up as usize).min(ROWS - 2), (around as usize).min(COLUMNS - 2));
+        let (u, v) = (up - i as f32, around - j as f32);
+        let corners = [[i, j], [i, j + 1], [i + 1, j], [i + 1, j + 1]].map(|[i, j]| &self.table[i][j]);
+        let shares = [(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v];
+        let between = direction.dot(self.toward_sun);
+        let phases = [rayleigh(between), self.phase.value(between), 1.0];
+        let mut sum = Spectrum::ZERO;
+        for (corner, share) in corners.into_iter().zip(shares) {
+            for (part, phase) in corner.iter().zip(phases) {
+                sum = part.mul_add(Spectrum::splat(share * phase), sum);
+            }
+        }
+        sum
+    }
+
+    fn brightest(&self) -> Vec3 {
+        self.brightest
+    }
+}
+
+#[cfg(test)]
+mod tests;
