@@ -109,6 +109,12 @@ impl Optics {
         )
     }
 
+    /// Vertical optical depth of ozone in a band.
+    #[cfg(test)]
+    pub(crate) fn ozone_depth(&self, band: usize) -> f64 {
+        self.ozone[band]
+    }
+
     fn with(air: &Air, wavelengths: Wide, ozone: Wide, sun: Wide) -> Self {
         let air = Air {
             turbidity: air.turbidity.max(0.0),

@@ -23,10 +23,10 @@ const STATIONS: usize = 32;
 
 /// The sky as light that molecules and aerosol scatter towards an observer (thesis 4.15, repaired):
 ///
-///   L = ∫ [σ_R P_R(θ) + ϖ σ_A P_A(θ)] I_sun e^(−τ(s) − τ(s′)) ds + ∫ [σ_R + ϖ σ_A] Ψ e^(−τ(s)) ds
+///   L = ∫ [σ_R P_R(θ) + ϖ σ_A P_A(θ)] I_sun e^(−τ(s) − τ(s′)) ds + ∫ S e^(−τ(s)) ds
 ///
-/// s from the observer to the place of scattering, s′ from there to the sun, through a round atmosphere, and Ψ what has
-/// been scattered before or comes from the ground. θ is the same along the whole ray, so that a table keeps the three integrals
+/// s from the observer to the place of scattering, s′ from there to the sun, through a round atmosphere, and S what is
+/// scattered there that has been scattered before or comes from the ground. θ is the same along the whole ray, so that a table keeps the three integrals
 /// without their phase functions: they vary slowly over the sky, and the sun's bright surroundings are
 /// exact.
 ///
@@ -111,10 +111,9 @@ impl View<'_> {
         }
         if let Some(orders) = self.orders {
             for station in &whole.stations {
-                let sin = whole.sun_at(station.s, station.r, self.sun, self.between);
-                let field = orders.at(station.r - GLOBE, sin);
-                add(&mut sums[2], &station.scatter[0], &field, 1.0);
-                add(&mut sums[2], &station.scatter[1], &field, 1.0);
+                let scattered = orders.at(whole.seen(station, self.sun, self.between));
+                add(&mut sums[2], &station.scatter[0], &scattered[0], 1.0);
+                add(&mut sums[2], &station.scatter[1], &scattered[1], 1.0);
             }
         }
         sums

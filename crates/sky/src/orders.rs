@@ -26,26 +26,49 @@ const ORDERS: usize = 4;
 /// Stands for no light where logarithms are taken.
 const DARK: f64 = 1e-60;
 
-/// Mean radiance from all around of what has been scattered, by height and sun: what scatters next.
+/// Light that arrives from all around after at least one scattering, by height and sun: what scatters next.
 ///
-/// From the second order on light is taken to be scattered evenly into all directions, by molecules and aerosol alike:
+/// With L_n the light of order n and P the phase function of molecules or of aerosol:
 ///
-///   Ψ_n(h, sun) = (1/4π) ∫ L_(n−1) dω,     L_n = ∫ σ_s Ψ_n T ds + T_ground ρ/π E_(n−1)
+///   S_(n+1) = σ_s ∫ L_n P dω,     L_n = ∫ S_n T ds + T_ground ρ/π E_(n−1)
 ///
-/// L₁ is single scattering with the true phase functions; E_n is what order n gives the ground, E₀ the direct sun.
-/// These successive orders are followed up to the fifth; what is beyond is a geometric series with the last two
+/// L₁ is single scattering with the true phase functions; E_n is what order n gives the ground, E₀ the direct sun. From
+/// the second scattering on phase functions count up to their second Legendre polynomial (all of molecules', the
+/// gist of aerosol's), so that three moments of L_n over the sphere say all: its mean, ∫ L ω and ∫ L ω ω.
+/// The successive orders are followed up to the fifth; what is beyond is a geometric series with the last two
 /// orders' ratio. Spherical throughout: over the horizon the sun stands elsewhere.
 pub(crate) struct Orders {
-    /// Altitudes of the sun \[rad\], rising.
-    suns: Vec<f64>,
-    /// ln of the sum of Ψ over orders, by height, then sun.
-    field: Vec<Vec<Wide>>,
+    field: Field,
 }
 
-/// A quantity by height and sun, and what comes down on the ground by sun.
+/// Moments of radiance over the sphere: Ψ = ∫ L dω/4π, and ∫ L f dω/4π for f = up, sunward, up², sunward², up · sunward,
+/// the cosines of the direction to the vertical and to the horizontal bearing of the sun.
+type Moments = [Wide; 6];
+
+/// Moments by height and sun: the first as its logarithm, the others as shares of it.
+struct Field {
+    /// Altitudes of the sun \[rad\], rising.
+    suns: Vec<f64>,
+    /// By height, then sun.
+    moments: Vec<Vec<Moments>>,
+    /// First and second Legendre coefficient of molecules and of aerosol.
+    legendre: [[f64; 2]; 2],
+}
+
+/// Moments by height and sun, and what comes down on the ground by sun.
 struct Order {
-    field: Vec<Vec<Wide>>,
+    moments: Vec<Vec<Moments>>,
     ground: Vec<Wide>,
+}
+
+/// What a ray sees the light of a place by: its height, the sine of the sun's altitude there, and the ray's
+/// cosines to the vertical there and to the sun.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen {
+    pub(crate) height: f64,
+    pub(crate) sun: f64,
+    pub(crate) up: f64,
+    pub(crate) between: f64,
 }
 
 /// A ray with its share of the sphere.
@@ -74,34 +97,91 @@ impl Orders {
             orders.push(next);
         }
         let sum = |i: usize, j: usize| {
-            std::array::from_fn(|band| {
-                let term = |k: usize| orders[k].field[i][j][band];
-                let (last, before) = (term(ORDERS - 1), term(ORDERS - 2));
+            let term = |k: usize, part: usize, band: usize| orders[k].moments[i][j][part][band];
+            // How much the last order counts, with all that would follow.
+            let last: Wide = std::array::from_fn(|band| {
+                let [before, last] = [ORDERS - 2, ORDERS - 1].map(|k| term(k, 0, band));
                 let ratio = if before > 0.0 { (last / before).min(0.9) } else { 0.0 };
-                let rest = last * ratio / (1.0 - ratio);
-                ((0..ORDERS).map(term).sum::<f64>() + rest).max(DARK).ln()
+                1.0 / (1.0 - ratio)
+            });
+            std::array::from_fn(|part| {
+                std::array::from_fn(|band| {
+                    let followed: f64 = (0..ORDERS - 1).map(|k| term(k, part, band)).sum();
+                    followed + term(ORDERS - 1, part, band) * last[band]
+                })
             })
         };
-        let field = (0..HEIGHTS.len()).map(|i| (0..suns.len()).map(|j| sum(i, j)).collect()).collect();
-        Self { suns, field }
+        let moments: Vec<Vec<Moments>> =
+            (0..HEIGHTS.len()).map(|i| (0..suns.len()).map(|j| sum(i, j)).collect()).collect();
+        Self { field: Field::new(optics, &suns, &moments) }
     }
 
-    /// Ψ where the sun's altitude has the sine `sin`.
-    pub(crate) fn at(&self, height: f64, sin: f64) -> Wide {
-        interpolate(&self.field, &self.suns, height, sin)
+    /// ∫ L P dω of molecules and of aerosol, in the direction and at the place that is seen.
+    pub(crate) fn at(&self, seen: Seen) -> [Wide; 2] {
+        self.field.at(seen)
     }
 }
 
-/// e to the value between logarithms, linear in height and in the sun's altitude.
-fn interpolate(logs: &[Vec<Wide>], suns: &[f64], height: f64, sin: f64) -> Wide {
-    let (i, u) = between(&HEIGHTS, height);
+impl Field {
+    fn new(optics: &Optics, suns: &[f64], moments: &[Vec<Moments>]) -> Self {
+        let share = |moments: &Moments| -> Moments {
+            std::array::from_fn(|part| {
+                std::array::from_fn(|band| {
+                    let mean = moments[0][band].max(DARK);
+                    if part == 0 { mean.ln() } else { moments[part][band] / mean }
+                })
+            })
+        };
+        Self {
+            suns: suns.to_vec(),
+            moments: moments.iter().map(|row| row.iter().map(share).collect()).collect(),
+            // ¾ (1 + cos²) = 1 + ½ P₂ = 1 + 5 · ⅒ P₂.
+            legendre: [[0.0, 0.1], optics.air.aerosol_phase.legendre()],
+        }
+    }
+
+    /// With m and M the shares ∫Lω/4πΨ and ∫Lωω/4πΨ, v the ray's direction:
+    ///
+    ///   ∫ L P dω = Ψ (1 + 3 g₁ m·v + 5 g₂ (3 v·M·v − 1)/2)
+    fn at(&self, seen: Seen) -> [Wide; 2] {
+        let (i, u) = between(&HEIGHTS, seen.height);
+        let (j, v) = between(&self.suns, seen.sun.asin());
+        let next = (j + 1).min(self.suns.len() - 1);
+        let corners = [
+            &self.moments[i][j],
+            &self.moments[i][next],
+            &self.moments[i + 1][j],
+            &self.moments[i + 1][next],
+        ];
+        let shares = [(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v];
+        // The ray's direction in the place's own frame: up, towards the sun's bearing, and across.
+        let cos = (1.0 - seen.sun * seen.sun).max(0.0).sqrt();
+        let ahead = if cos > 1e-6 { (seen.between - seen.up * seen.sun) / cos } else { 0.0 };
+        let [uu, ss, us] = [seen.up * seen.up, ahead * ahead, seen.up * ahead];
+        let pp = (1.0 - uu - ss).max(0.0);
+        let mut sums = [[0.0; BANDS]; 2];
+        for band in 0..BANDS {
+            let part = |part: usize| -> f64 {
+                corners.iter().zip(shares).map(|(corner, share)| corner[part][band] * share).sum()
+            };
+            let mean = part(0).exp();
+            let first = part(1) * seen.up + part(2) * ahead;
+            let [a, b, c] = [part(3), part(4), part(5)];
+            let second = a * uu + b * ss + 2.0 * c * us + (1.0 - a - b) * pp;
+            for (sum, [g1, g2]) in sums.iter_mut().zip(self.legendre) {
+                // A phase function cut short may fall below zero, light may not.
+                sum[band] = mean * (1.0 + 3.0 * g1 * first + 2.5 * g2 * (3.0 * second - 1.0)).max(0.0);
+            }
+        }
+        sums
+    }
+}
+
+/// e to the value between logarithms, linear in the sun's altitude.
+fn interpolate(logs: &[Wide], suns: &[f64], sin: f64) -> Wide {
     let (j, v) = between(suns, sin.asin());
     let next = (j + 1).min(suns.len() - 1);
-    std::array::from_fn(|band| {
-        let along = |row: &[Wide]| row[j][band] + v * (row[next][band] - row[j][band]);
-        let (low, high) = (along(&logs[i]), along(&logs[i + 1]));
-        (low + u * (high - low)).exp()
-    })
+    std::array::from_fn(|band| (logs[j][band] + v * (logs[next][band] - logs[j][band])).exp())
 }
 
 /// Interval of a rising list that `x` lies in, and how far into it; the ends beyond it.
@@ -135,24 +215,26 @@ fn rays(optics: &Optics, r: f64) -> Vec<Ray> {
         .collect()
 }
 
-/// ∫ of something along every ray: the mean over the sphere, and E on the horizontal from above.
-fn gather(rays: &[Ray], sun: f64, light: impl Fn(&Path, f64) -> Wide) -> [Wide; 2] {
-    let mut sums = [[0.0; BANDS]; 2];
+/// The moments of the light along every ray, and E on the horizontal from above.
+fn gather(rays: &[Ray], sun: f64, light: impl Fn(&Path, f64) -> Wide) -> (Moments, Wide) {
+    let (mut moments, mut ground) = ([[0.0; BANDS]; 6], [0.0; BANDS]);
     let across = (1.0 - sun * sun).max(0.0).sqrt();
     for ray in rays {
         let mu = ray.path.mu;
-        let level = (1.0 - mu * mu).max(0.0).sqrt() * across;
+        let level = (1.0 - mu * mu).max(0.0).sqrt();
+        let share = ray.share / AZIMUTHS as f64;
         for k in 0..AZIMUTHS {
             let azimuth = std::f64::consts::PI * (k as f64 + 0.5) / AZIMUTHS as f64;
-            let radiance = light(&ray.path, mu * sun + level * azimuth.cos());
-            let share = ray.share / AZIMUTHS as f64;
-            for band in 0..BANDS {
-                sums[0][band] += radiance[band] * share;
-                sums[1][band] += radiance[band] * share * 4.0 * std::f64::consts::PI * mu.max(0.0);
+            let ahead = level * azimuth.cos();
+            let radiance = light(&ray.path, mu * sun + ahead * across);
+            let factors = [1.0, mu, ahead, mu * mu, ahead * ahead, mu * ahead];
+            for (moment, factor) in moments.iter_mut().zip(factors) {
+                add(moment, &radiance, &[1.0; BANDS], share * factor);
             }
+            add(&mut ground, &radiance, &[1.0; BANDS], share * 4.0 * std::f64::consts::PI * mu.max(0.0));
         }
     }
-    sums
+    (moments, ground)
 }
 
 /// ρ/π E where a ray meets the ground, of `irradiance` by the sine of the sun's altitude there.
@@ -191,16 +273,14 @@ fn first(optics: &Optics, rays: &[Vec<Ray>], suns: &[f64]) -> Order {
 
 /// The order after `last`.
 fn next(optics: &Optics, rays: &[Vec<Ray>], suns: &[f64], last: &Order) -> Order {
-    let log = |wide: &Wide| wide.map(|x| x.max(DARK).ln());
-    let logs: Vec<Vec<Wide>> = last.field.iter().map(|row| row.iter().map(log).collect()).collect();
-    let ground = vec![last.ground.iter().map(log).collect::<Vec<Wide>>(); HEIGHTS.len()];
+    let field = Field::new(optics, suns, &last.moments);
+    let ground: Vec<Wide> = last.ground.iter().map(|wide| wide.map(|x| x.max(DARK).ln())).collect();
     let light = |path: &Path, sun: f64, between: f64| {
-        let mut sum = from_ground(optics, path, sun, between, |sin| interpolate(&ground, suns, 0.0, sin));
+        let mut sum = from_ground(optics, path, sun, between, |sin| interpolate(&ground, suns, sin));
         for station in &path.stations {
-            let sin = path.sun_at(station.s, station.r, sun, between);
-            let field = interpolate(&logs, suns, station.r - GLOBE, sin);
-            for scatter in &station.scatter {
-                add(&mut sum, scatter, &field, 1.0);
+            let scattered = field.at(path.seen(station, sun, between));
+            for (scatter, light) in station.scatter.iter().zip(&scattered) {
+                add(&mut sum, scatter, light, 1.0);
             }
         }
         sum
@@ -209,13 +289,10 @@ fn next(optics: &Optics, rays: &[Vec<Ray>], suns: &[f64], last: &Order) -> Order
 }
 
 fn order(rays: &[Vec<Ray>], suns: &[f64], light: impl Fn(&Path, f64, f64) -> Wide) -> Order {
-    let gathered = |rays: &[Ray]| -> Vec<[Wide; 2]> {
+    let all = rays.iter().map(|rays| {
         let one = |&sun: &f64| gather(rays, sun.sin(), |path, between| light(path, sun.sin(), between));
-        suns.iter().map(one).collect()
-    };
-    let all: Vec<Vec<[Wide; 2]>> = rays.iter().map(|rays| gathered(rays)).collect();
-    Order {
-        ground: all[0].iter().map(|sums| sums[1]).collect(),
-        field: all.iter().map(|row| row.iter().map(|sums| sums[0]).collect()).collect(),
-    }
+        suns.iter().map(one).unzip()
+    });
+    let (moments, ground): (Vec<Vec<Moments>>, Vec<Vec<Wide>>) = all.unzip();
+    Order { moments, ground: ground.into_iter().next().unwrap_or_default() }
 }

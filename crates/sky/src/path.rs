@@ -4,6 +4,7 @@ use light::bands::BANDS;
 
 use crate::air::{Optics, Wide};
 use crate::gauss;
+use crate::orders::Seen;
 use crate::slant::GLOBE;
 
 /// A place on a ray where it picks up scattered light.
@@ -115,6 +116,17 @@ impl Path {
             station(optics, length + step.x, step, &optics.transmittance(&whole.less(ahead)))
         });
         Self { mu, r, stations: down.chain(up).collect(), ground: None }
+    }
+
+    /// What the ray sees of a station, the sun at cosine `sun` to the vertical at the ray's start and `between` to
+    /// the ray.
+    pub(crate) fn seen(&self, station: &Station, sun: f64, between: f64) -> Seen {
+        Seen {
+            height: station.r - GLOBE,
+            sun: self.sun_at(station.s, station.r, sun, between),
+            up: ((self.r * self.mu + station.s) / station.r).clamp(-1.0, 1.0),
+            between,
+        }
     }
 
     /// Cosine to the vertical of the sun at distance `s` along the ray and `r` from the centre, where it is

@@ -34,6 +34,18 @@ impl Lobes {
         even + lobe(first, self.powers[0]) + lobe(second, self.powers[1])
     }
 
+    /// ∫ P cos θ dω and ∫ P (3 cos² θ − 1)/2 dω.
+    ///
+    /// With q = cos²(θ/2), cos θ = 2q − 1, of a lobe qⁿ they are n/(n+2) and n (n−1)/((n+2)(n+3)) of its integral.
+    pub(crate) fn legendre(&self) -> [f64; 2] {
+        let [even, first, second] = self.weights;
+        let [m, n] = self.powers.map(f64::from);
+        let lobes = [(first / (m + 1.0), m), (second / (n + 1.0), n)];
+        let whole = even + lobes[0].0 + lobes[1].0;
+        let sum = |f: fn(f64) -> f64| lobes.iter().map(|&(weight, n)| weight * f(n)).sum::<f64>() / whole;
+        [sum(|n| n / (n + 2.0)), sum(|n| n * (n - 1.0) / ((n + 2.0) * (n + 3.0)))]
+    }
+
     fn normalised(&self) -> [f32; 3] {
         let [even, first, second] = self.weights;
         let [m, n] = self.powers.map(|power| f64::from(power) + 1.0);

@@ -9,27 +9,67 @@ fn at_altitude(degrees: f32) -> Vec3 {
 
 #[test]
 fn explore() {
-    for (turb, alb, ground) in [(0.06, 0.9, 0.2), (0.09, 0.9, 0.2), (0.09, 1.0, 0.2), (0.12, 0.95, 0.2)] {
-        let air = Air { turbidity: turb, aerosol_albedo: alb, ground_albedo: ground, ..Air::CLEAR };
-        println!("{turb} {alb} {ground}");
-        for h in [2.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 85.0, 90.0] {
-            let t = std::time::Instant::now();
-            let sky = AirSky::new(&air, at_altitude(h), 0.0);
-            let dt = t.elapsed().as_secs_f64();
-            let single = AirSky::new(&Air { multiple: false, ..air }, at_altitude(h), 0.0);
-            let ours = horizontal_illuminance(&sky);
-            let ies = diffuse_illuminance(1.0, h.into());
-            println!(
-                "{h:4} {ours:8.0} {:8.0} {ies:8.0} {:.3}  {:.3} s",
-                horizontal_illuminance(&single),
-                ours / ies,
-                dt
-            );
+    for turb in [0.02, 0.04, 0.06] {
+        for alb in [0.9, 1.0] {
+            for ground in [0.15, 0.3] {
+                for ozone in [0.2, 0.3] {
+                    let air = Air {
+                        turbidity: turb,
+                        aerosol_albedo: alb,
+                        ground_albedo: ground,
+                        ozone,
+                        ..Air::CLEAR
+                    };
+                    print!("{turb} {alb} {ground} {ozone}: ");
+                    for h in [5.0, 7.5, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 85.0] {
+                        let sky = AirSky::new(&air, at_altitude(h), 0.0);
+                        let ours = horizontal_illuminance(&sky);
+                        let ies = diffuse_illuminance(1.0, h.into());
+                        print!(" {:.3}", ours / ies);
+                    }
+                    println!();
+                }
+            }
         }
     }
     println!("thesis");
     for h in [10.0, 20.0, 30.0, 60.0, 90.0] {
         let sky = AirSky::new(&Air::THESIS, at_altitude(h), 0.0);
         println!("{h:4} {:8.0} {:8.0}", horizontal_illuminance(&sky), sky.radiance(Vec3::Y).luminance());
+    }
+}
+
+mod photons;
+
+fn gas(optics: &Optics, band: usize) -> photons::Gas {
+    photons::Gas {
+        coefficients: [optics.molecules[band], optics.aerosol[band], optics.ozone_depth(band) / 20_000.0],
+        scales: [optics.air.molecule_scale_height, 1200.0],
+        aerosol_albedo: optics.air.aerosol_albedo,
+        aerosol_phase: |cos| {
+            let q = 0.5 + 0.5 * cos;
+            (0.0446 + 0.263 * q.powi(8) + 0.373 * q.powi(64)) / 0.999_79
+        },
+        ground_albedo: optics.air.ground_albedo,
+    }
+}
+
+#[test]
+fn mc() {
+    let optics = Optics::new(&Air::CLEAR);
+    for h in [2.0f32, 5.0, 10.0] {
+        let sky = AirSky::with(&optics, at_altitude(h), 0.0);
+        let single = AirSky::new(&Air { multiple: false, ..Air::CLEAR }, at_altitude(h), 0.0);
+        for band in [0, 6] {
+            let ours = crate::open_sky::horizontal(|d| sky.radiance(d)[band].into()) / optics.sun[band];
+            let one = crate::open_sky::horizontal(|d| single.radiance(d)[band].into()) / optics.sun[band];
+            let [mean, error] =
+                gas(&optics, band).sky(at_altitude(h).as_dvec3(), 60_000, &mut photons::Random(1));
+            println!(
+                "{h} {band}: {one:.5} {ours:.5} {mean:.5} ± {error:.5} {:.3} ± {:.3}",
+                ours / mean,
+                error / mean
+            );
+        }
     }
 }
