@@ -108,7 +108,7 @@ fn main() {
     println!("sky sun normal screen | open share | noise by samples {SAMPLES:?} | bias, per cent");
     let mut logs = [0.0; SAMPLES.len()];
     let mut cases = 0;
-    for (model, altitudes) in [(Model::CieClear, &[5.0f32, 20.0, 60.0][..]), (Model::Overcast, &[40.0])] {
+    for (model, altitudes) in [(Model::Clear, &[5.0f32, 20.0, 60.0][..]), (Model::Overcast, &[40.0])] {
         for &altitude in altitudes {
             let (sin, cos) = altitude.to_radians().sin_cos();
             let sun = Vec3::new(0.0, sin, -cos);

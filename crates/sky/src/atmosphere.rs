@@ -6,22 +6,23 @@ use crate::air::{Air, columns, per_column};
 use crate::slant::GLOBE;
 use crate::solar_spectrum;
 
-/// Ångström's β of the clear air to which the IES' direct illuminances belong (within 3 % of them from 10° up).
+/// Ångström's β of the clear air to which the IES' illuminances of sun and sky belong.
 ///
 /// 0.05 is clean, 0.1 usual near towns, 0.2 hazy.
 pub const CLEAR_TURBIDITY: f64 = 0.06;
 
 /// Irradiance of the direct sun on a plane that faces it, through a clear sky \[W m⁻² nm⁻¹\].
 ///
-/// `altitude_deg` is the apparent height of the sun (refraction included), within \[−90, 90\];
+/// `altitude_deg` is the height of the sun, within \[−90, 90\];
 /// `elevation_m` the observer's height above the sea \[m\]; `turbidity_beta` Ångström's turbidity β ≥ 0 at
 /// sea level, the vertical optical depth of aerosol at 1 µm.
 ///
-///   I = I₀ exp(−m τ_R e^(−z/8434 m) − m β λ^(−1) e^(−z/1200 m) − m_O k_O 0.3 atm-cm),   λ in µm
+///   I = I₀ exp(−c_R τ_R/8434 m − c_A β λ^(−1)/1200 m − c_O k_O 0.22 atm-cm),   λ in µm
 ///
-/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, the relative air
-/// masses m of [`air_mass`] and m_O of a layer at 22 km. Water vapour and oxygen, which absorb narrow
-/// lines towards the red (together below 2 % of the illuminance), are left out.
+/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, and the columns c that a
+/// straight ray meets in a round atmosphere: the very depths of [`crate::AirSky`], with [`Air::CLEAR`] but for the turbidity. Water
+/// vapour and oxygen, which absorb narrow lines towards the red (together below 2 % of the illuminance), are left
+/// out.
 ///
 /// Finite and continuous everywhere; the little that is left at the horizon fades out below it within
 /// about 2°.

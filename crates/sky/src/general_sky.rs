@@ -34,7 +34,7 @@ pub(crate) fn parameters(number: usize) -> Option<Gradation> {
 
 /// How much of type `number` is clear sky, 0 to 1, by its description: overcast (1 to 5), partly cloudy
 /// (6 to 10), clear (11 to 15).
-pub(crate) fn clear_share(number: usize) -> f32 {
+pub(crate) fn clear_share(number: usize) -> f64 {
     match number {
         0..=5 => 0.0,
         6..=10 => 0.5,

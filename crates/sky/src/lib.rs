@@ -24,7 +24,7 @@
 //! let toward = Vec3::new(0.0, sin as f32, cos as f32); // in the south: north is −Z
 //! let beam = atmosphere::direct_beam(altitude, 0.0, atmosphere::CLEAR_TURBIDITY);
 //! let sun = Sun { toward, irradiance: beam, angular_diameter_deg: DIAMETER_DEG, samples: 16 };
-//! let clear = Model::named("cie-clear").unwrap().sky(&Conditions::new(toward));
+//! let clear = Model::named("clear").unwrap().sky(&Conditions::new(toward));
 //! let sky = Dome::new(&Description { sun_horizontal: beam * toward.y, ..Description::new(clear) });
 //!
 //! let lawn = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };

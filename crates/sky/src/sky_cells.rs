@@ -221,9 +221,7 @@ mod tests {
         // of the ground count twice: 2 n^(−3/4) = 0.7 % of all for each shift, a root of 64 less for their mean;
         // thrice that for the largest of all cases.
         let spread = 3.0 * 0.007 / 8.0;
-        for (name, altitude) in
-            [("cie-clear", 5.0), ("cie-clear", 50.0), ("overcast", 30.0), ("uniform", 0.0)]
-        {
+        for (name, altitude) in [("clear", 5.0), ("clear", 50.0), ("overcast", 30.0), ("uniform", 0.0)] {
             let sky = standard(name, altitude);
             let open = OpenSky::new(&sky);
             let horizontal = open.horizontal().luminance();
@@ -254,7 +252,7 @@ mod tests {
 
     #[test]
     fn every_direction_in_front_of_a_plane_can_be_chosen() {
-        let cells = SkyCells::new(&standard("cie-clear", 20.0), 1000.0, 500.0);
+        let cells = SkyCells::new(&standard("clear", 20.0), 1000.0, 500.0);
         for normal in NORMALS {
             let facing = cells.facing(normal);
             for (row, column) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column))) {
@@ -271,7 +269,7 @@ mod tests {
 
     #[test]
     fn sky_is_above_the_horizon_and_ground_below() {
-        let cells = SkyCells::new(&standard("cie-clear", 20.0), 1000.0, 500.0);
+        let cells = SkyCells::new(&standard("clear", 20.0), 1000.0, 500.0);
         let facing = cells.facing(Vec3::NEG_Z);
         for i in 0..4096 {
             let chosen = facing.choose(lattice(i, 4096, shift(i, 1)));
