@@ -47,7 +47,7 @@ impl Air {
         turbidity: CLEAR_TURBIDITY,
         aerosol_albedo: 1.0,
         aerosol_phase: Lobes::REPAIRED,
-        ozone: 0.22,
+        ozone: 0.23,
         molecules: 1.0,
         molecule_scale_height: 8434.0,
         top: 100_000.0,

@@ -17,7 +17,7 @@ pub const CLEAR_TURBIDITY: f64 = 0.06;
 /// `elevation_m` the observer's height above the sea \[m\]; `turbidity_beta` Ångström's turbidity β ≥ 0 at
 /// sea level, the vertical optical depth of aerosol at 1 µm.
 ///
-///   I = I₀ exp(−c_R τ_R/8434 m − c_A β λ^(−1)/1200 m − c_O k_O 0.22 atm-cm),   λ in µm
+///   I = I₀ exp(−c_R τ_R/8434 m − c_A β λ^(−1)/1200 m − c_O k_O 0.23 atm-cm),   λ in µm
 ///
 /// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, and the columns c that a
 /// straight ray meets in a round atmosphere: the very depths of [`crate::AirSky`], with [`Air::CLEAR`] but for the turbidity. Water
