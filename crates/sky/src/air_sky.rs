@@ -1,5 +1,6 @@
 //! The sky as light scattered by air.
 
+use std::f32::consts::FRAC_2_PI;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::Vec3;
@@ -14,10 +15,10 @@ use crate::phase::{Lobes, rayleigh};
 use crate::sky::lifted;
 use crate::slant::GLOBE;
 
-/// Rows of the table over the direction's height y, which are even in √y: closest at the horizon.
-const ROWS: usize = 40;
+/// Rows of the table over the direction's altitude h, which are even in √h: closest at the horizon.
+const ROWS: usize = 64;
 /// Columns over (1 − cos azimuth)/2 from the sun, even.
-const COLUMNS: usize = 24;
+const COLUMNS: usize = 32;
 /// Places along each ray.
 const STATIONS: usize = 32;
 
@@ -30,7 +31,7 @@ const STATIONS: usize = 32;
 /// without their phase functions: they vary slowly over the sky, and the sun's bright surroundings are
 /// exact.
 ///
-/// The table is bilinear between 40 heights and 24 azimuths.
+/// The table is bilinear between 64 altitudes and 32 azimuths
 #[derive(Clone, Debug)]
 pub struct AirSky {
     /// Not below the horizon, for `brightest`.
@@ -55,7 +56,7 @@ impl AirSky {
         let sun = altitude(toward_sun);
         let orders = optics.air.multiple.then(|| Orders::new(optics, sun));
         let row = |row: usize| {
-            let mu = (row as f64 / (ROWS - 1) as f64).powi(2);
+            let mu = (FRAC_PI_2 * (row as f64 / (ROWS - 1) as f64).powi(2)).sin();
             let whole = Path::rising(optics, r, mu, 0.0, STATIONS);
             std::array::from_fn(|column| {
                 let across = 1.0 - 2.0 * column as f64 / (COLUMNS - 1) as f64;
@@ -94,29 +95,41 @@ struct View<'a> {
 impl View<'_> {
     /// The three integrals along a ray that rises from the observer.
     fn integrals(&self, whole: &Path) -> [Wide; 3] {
-        let mut sums = [[0.0; BANDS]; 3];
         let lit = self.lit_from(whole);
-        let part;
-        let path = if lit > 0.0 {
-            part = Path::rising(self.optics, whole.r, whole.mu, lit, STATIONS);
-            &part
+        let [molecules, aerosol] = if lit == 0.0 {
+            self.once(whole)
+        } else if lit < 1.0 {
+            self.once(&Path::rising(self.optics, whole.r, whole.mu, lit, STATIONS))
         } else {
-            whole
+            [[0.0; BANDS]; 2]
         };
-        for station in path.stations.iter().filter(|_| lit < 1.0) {
-            let beam =
-                self.optics.sunlight(station.r, path.sun_at(station.s, station.r, self.sun, self.between));
-            add(&mut sums[0], &station.scatter[0], &beam, 1.0);
-            add(&mut sums[1], &station.scatter[1], &beam, 1.0);
-        }
-        if let Some(orders) = self.orders {
-            for station in &whole.stations {
-                let scattered = orders.at(whole.seen(station, self.sun, self.between));
-                add(&mut sums[2], &station.scatter[0], &scattered[0], 1.0);
-                add(&mut sums[2], &station.scatter[1], &scattered[1], 1.0);
-            }
+        [molecules, aerosol, self.again(whole)]
+    }
+
+    /// Light scattered once by molecules and by aerosol, without the phase functions.
+    fn once(&self, path: &Path) -> [Wide; 2] {
+        let mut sums = [[0.0; BANDS]; 2];
+        for station in &path.stations {
+            let sun = path.sun_at(station.s, station.r, self.sun, self.between);
+            let beam = self.optics.sunlight(station.r, sun);
+            sums.iter_mut().zip(&station.scatter).for_each(|(sum, scatter)| add(sum, scatter, &beam, 1.0));
         }
         sums
+    }
+
+    /// Light scattered more often, or from the ground.
+    fn again(&self, path: &Path) -> Wide {
+        let mut sum = [0.0; BANDS];
+        let Some(orders) = self.orders else { return sum };
+        for station in &path.stations {
+            let scattered = orders.at(path.seen(station, self.sun, self.between));
+            station
+                .scatter
+                .iter()
+                .zip(&scattered)
+                .for_each(|(scatter, light)| add(&mut sum, scatter, light, 1.0));
+        }
+        sum
     }
 
     /// Where the ray leaves the globe's shadow, by t of [`Path::rising`]: 0 when it starts in the light, 1 when it
@@ -148,7 +161,7 @@ impl View<'_> {
 impl Sky for AirSky {
     fn radiance(&self, direction: Vec3) -> Spectrum {
         let direction = lifted(direction);
-        let up = direction.y.min(1.0).sqrt() * (ROWS - 1) as f32;
+        let up = (direction.y.min(1.0).asin() * FRAC_2_PI).sqrt() * (ROWS - 1) as f32;
         // (1 − cos azimuth)/2, any at the zenith.
         let level = direction.x.hypot(direction.z);
         let cos = if level > 0.0 { direction.dot(self.ahead) / level } else { 0.0 };

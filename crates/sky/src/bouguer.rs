@@ -41,3 +41,43 @@ pub fn sky_illuminance(transmittance: f64, sun_altitude_deg: f64) -> f64 {
 fn outside_illuminance() -> f64 {
     f64::from(solar_spectrum::extraterrestrial().luminance())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_those_of_the_printed_formulas() {
+        // With I₀ = 1367 W/m² and 1/sin h: (P, h, direct, sky).
+        for (p, altitude, direct, sky) in [
+            (0.6, 30.0, 492.12, 133.42),
+            (0.7, 30.0, 669.83, 103.70),
+            (0.7, 60.0, 905.53, 101.68),
+            (0.7, 90.0, 956.90, 96.21),
+            (0.8, 80.0, 1089.84, 61.90),
+        ] {
+            // Kasten and Young's air mass is 0.3 % below 1/sin h at 30°, 0.03 % off at the zenith: times ln P.
+            let bound = if altitude < 60.0 { 0.004 } else { 0.0005 };
+            assert!((direct_normal(1367.0, p, altitude) / direct - 1.0).abs() < bound, "{p} {altitude}");
+            assert!((sky_horizontal(1367.0, p, altitude) / sky - 1.0).abs() < bound, "{p} {altitude}");
+        }
+    }
+
+    #[test]
+    fn the_horizon_is_no_pole_and_the_night_is_dark() {
+        for p in [-1.0, 0.0, 0.3, 0.7, 1.0, 2.0] {
+            let mut before = 0.0;
+            for i in -1800..=9000 {
+                let altitude = 0.01 * f64::from(i);
+                let (direct, sky) = (direct_normal(1.0, p, altitude), sky_horizontal(1.0, p, altitude));
+                assert!((0.0..=1.0).contains(&direct) && (0.0..=0.5).contains(&sky), "{p} {altitude}");
+                // I_SH rises with sin h at first, times 0.66 · 0.5.
+                assert!((sky - before).abs() < 1e-4);
+                before = sky;
+            }
+        }
+        assert_eq!(sky_illuminance(0.7, -1.0), 0.0);
+        let ratio = sky_illuminance(0.7, 30.0) / (0.5 * sun_illuminance(0.7, 30.0));
+        assert!((ratio - 103.70 / 334.91).abs() < 0.002, "the thesis' ratio: {ratio}");
+    }
+}

@@ -15,12 +15,12 @@ const HEIGHTS: [f64; 11] =
 /// the sun stands up to 8° lower or higher; from further off comes less than a per mille.
 const SUNS: [f64; 11] = [-12.0, -8.0, -5.0, -3.0, -1.5, 0.0, 1.5, 3.0, 5.0, 8.0, 12.0];
 /// Cosines to the vertical above the globe's rim, and below it.
-const ABOVE: usize = 12;
+const ABOVE: usize = 10;
 const BELOW: usize = 5;
 /// Azimuths from the sun, over half a turn.
-const AZIMUTHS: usize = 8;
+const AZIMUTHS: usize = 6;
 /// Places along each ray.
-const STATIONS: usize = 12;
+const STATIONS: usize = 10;
 /// Orders of scattering that are followed, from the second on.
 const ORDERS: usize = 4;
 /// Stands for no light where logarithms are taken.
@@ -159,18 +159,19 @@ impl Field {
         let ahead = if cos > 1e-6 { (seen.between - seen.up * seen.sun) / cos } else { 0.0 };
         let [uu, ss, us] = [seen.up * seen.up, ahead * ahead, seen.up * ahead];
         let pp = (1.0 - uu - ss).max(0.0);
+        let mix = |part: usize| -> Wide {
+            std::array::from_fn(|band| (0..4).map(|k| corners[k][part][band] * shares[k]).sum())
+        };
+        let mean = mix(0).map(f64::exp);
+        let [up, sunward, up2, sunward2, both] = [mix(1), mix(2), mix(3), mix(4), mix(5)];
         let mut sums = [[0.0; BANDS]; 2];
-        for band in 0..BANDS {
-            let part = |part: usize| -> f64 {
-                corners.iter().zip(shares).map(|(corner, share)| corner[part][band] * share).sum()
-            };
-            let mean = part(0).exp();
-            let first = part(1) * seen.up + part(2) * ahead;
-            let [a, b, c] = [part(3), part(4), part(5)];
-            let second = a * uu + b * ss + 2.0 * c * us + (1.0 - a - b) * pp;
-            for (sum, [g1, g2]) in sums.iter_mut().zip(self.legendre) {
+        for (sum, [g1, g2]) in sums.iter_mut().zip(self.legendre) {
+            for band in 0..BANDS {
+                let first = up[band] * seen.up + sunward[band] * ahead;
+                let across = 1.0 - up2[band] - sunward2[band];
+                let second = up2[band] * uu + sunward2[band] * ss + 2.0 * both[band] * us + across * pp;
                 // A phase function cut short may fall below zero, light may not.
-                sum[band] = mean * (1.0 + 3.0 * g1 * first + 2.5 * g2 * (3.0 * second - 1.0)).max(0.0);
+                sum[band] = mean[band] * (1.0 + 3.0 * g1 * first + 2.5 * g2 * (3.0 * second - 1.0)).max(0.0);
             }
         }
         sums

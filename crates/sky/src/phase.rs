@@ -1,7 +1,7 @@
 //! Into which directions air scatters: phase functions.
 
 /// (1 + cos² θ) 3/(16π), of molecules \[1/sr\] (thesis 4.2; Rayleigh). Unit integral over the sphere.
-pub fn rayleigh(cos: f32) -> f32 {
+pub(crate) fn rayleigh(cos: f32) -> f32 {
     3.0 / (16.0 * std::f32::consts::PI) * (1.0 + cos * cos)
 }
 

@@ -27,8 +27,8 @@ pub(crate) fn exponential(scale: f64, r: f64, mu: f64) -> f64 {
         return half;
     }
     let lowest = r * (1.0 - mu * mu).max(0.0).sqrt();
-    // At the globe's centre itself Chapman's expansion ends; long before, nothing comes through.
-    2.0 * rising(scale, lowest.max(0.5 * GLOBE), 0.0) - half
+    // Far enough inside the globe the exponential overflows; long before, nothing comes through.
+    (2.0 * rising(scale, lowest.max(0.5 * GLOBE), 0.0)).min(1e30) - half
 }
 
 fn rising(scale: f64, r: f64, mu: f64) -> f64 {

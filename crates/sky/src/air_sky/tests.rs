@@ -66,11 +66,13 @@ fn single_scattering_is_that_of_a_plain_sum() {
                 for band in [0, 6] {
                     let exact = reference::radiance(&optics, band, d, at_altitude(sun), elevation);
                     let ours = f64::from(sky.radiance(d)[band]);
-                    // The plain sum's steps 0.3 %, the slant columns' 3e-4 of depths up to 10, the table: 1.5 % of
-                    // its own, in twilight 3 %.
-                    let bound = if sun > 0.0 { 0.02 } else { 0.04 };
+                    // The plain sum's steps and the slant columns' 3e-4 of depths up to 10 make 0.5 %, the table in
+                    // full daylight as much; in twilight what is dark (below a thousandth of the zenith) is as wrong
+                    // as that.
+                    let zenith = f64::from(sky.radiance(Vec3::Y)[band]);
+                    let bound = if sun > 0.0 { 0.01 * exact } else { 0.03 * exact + 1e-3 * zenith };
                     assert!(
-                        (ours / exact - 1.0).abs() < bound,
+                        (ours - exact).abs() < bound,
                         "{sun} {altitude} {azimuth} {band}: {ours} {exact}"
                     );
                 }
@@ -119,20 +121,26 @@ fn all_orders_together_are_those_of_single_paths_of_light() {
 fn flux_up(optics: &Optics, sun: f64) -> f64 {
     let orders = Orders::new(optics, sun);
     let r = GLOBE + 90_000.0;
-    let rim = (1.0 - (GLOBE / r).powi(2)).sqrt();
+    // From straight down to the globe's rim, and on to where the thin air beside it ends, 60 km high.
+    let rim = |height: f64| -(1.0 - ((GLOBE + height) / r).powi(2)).sqrt();
     let mut sum = 0.0;
-    for (t, weight) in crate::gauss::points(24) {
-        // From straight down to the rim, and a little beyond it, where thin air still shines.
-        let mu = -(rim + (1.0 - rim) * t);
+    let ranges = [(-1.0, rim(0.0), 24), (rim(0.0), rim(60_000.0), 24)];
+    let points = ranges.iter().flat_map(|&(from, to, count)| {
+        crate::gauss::points(count)
+            .into_iter()
+            .map(move |(t, weight)| (from + (to - from) * t, (to - from) * weight))
+    });
+    for (mu, weight) in points {
         let path = Path::whole(optics, r, mu, STATIONS);
         for k in 0..12 {
             let across = (std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0).cos();
             let between = mu * sun.sin() + (1.0 - mu * mu).sqrt() * sun.cos() * across;
             let view = View { optics, orders: Some(&orders), sun: sun.sin(), between };
             let phases = [rayleigh(between as f32), optics.air.aerosol_phase.value(between as f32), 1.0];
-            let radiance: f64 =
-                view.integrals(&path).iter().zip(phases).map(|(i, p)| i[0] * f64::from(p)).sum();
-            sum += radiance * mu.abs() * weight * (1.0 - rim) * std::f64::consts::TAU / 12.0;
+            let [molecules, aerosol] = view.once(&path);
+            let integrals = [molecules, aerosol, view.again(&path)];
+            let radiance: f64 = integrals.iter().zip(phases).map(|(i, p)| i[0] * f64::from(p)).sum();
+            sum += radiance * mu.abs() * weight * std::f64::consts::TAU / 12.0;
         }
     }
     sum
@@ -152,15 +160,14 @@ fn light_is_neither_made_nor_lost_where_nothing_absorbs() {
         let whole = optics.sun[0] * sun.sin();
         println!("{degrees}°: down {:.4}, up {:.4}", down / whole, up / whole);
         // A globe lit from one side is not a plane: light crosses between places under higher and lower suns, by
-        // the air's height over the globe's radius times tan of the sun's angle from the zenith, 0.2 to 0.6 %; and
-        // 2 % as against single paths.
-        assert!(((down + up) / whole - 1.0).abs() < 0.03, "{degrees}: {}", (down + up) / whole);
+        // the air's height (8 km) over the globe's radius times tan of the sun's angle from the zenith: 0.2 %. And
+        // the quadratures, 0.5 %.
+        assert!(((down + up) / whole - 1.0).abs() < 0.007, "{degrees}: {}", (down + up) / whole);
     }
 }
 
 #[test]
 fn bands_are_within_half_a_percent_of_spectra_in_steps_of_5_nm() {
-    let sun = 20.0f64.to_radians();
     let toward = at_altitude(20.0);
     let directions = [(90.0, 0.0), (30.0, 90.0), (5.0, 30.0), (1.0, 180.0)];
     let table = |optics: &Optics| {
@@ -175,7 +182,6 @@ fn bands_are_within_half_a_percent_of_spectra_in_steps_of_5_nm() {
             spectrum.extend(nm.iter().zip(values.0).map(|(&nm, value)| (nm, f64::from(value))));
         }
     }
-    assert!(sun > 0.0);
     for (ours, spectrum) in ours.iter().zip(&spectra) {
         let exact = Spectrum::from_table(spectrum);
         for band in 0..BANDS {
@@ -190,10 +196,11 @@ fn bands_are_within_half_a_percent_of_spectra_in_steps_of_5_nm() {
 
 #[test]
 fn the_table_is_within_its_stated_error() {
-    for (sun, bound) in [(60.0f64, 0.005), (10.0, 0.01), (-3.0, 0.03)] {
-        let optics = Optics::new(&SINGLE);
+    for (sun, bound) in [(60.0f64, 0.002), (10.0, 0.005), (-3.0, 0.03)] {
+        let optics = Optics::new(&Air::CLEAR);
         let sky = AirSky::with(&optics, at_altitude(sun), 0.0);
-        let mut worst = 0.0f64;
+        let orders = Orders::new(&optics, sun.to_radians());
+        let mut worst = (0.0f64, 0.0, 0.0);
         for i in 0..300 {
             // Spread by the golden ratio, closer at the horizon.
             let share = (f64::from(i) + 0.5) / 300.0;
@@ -201,23 +208,25 @@ fn the_table_is_within_its_stated_error() {
             let d = direction(altitude, azimuth);
             let between = d.as_dvec3().dot(at_altitude(sun).as_dvec3());
             let path = Path::rising(&optics, GLOBE, f64::from(d.y), 0.0, STATIONS);
-            let view = View { optics: &optics, orders: None, sun: sun.to_radians().sin(), between };
-            let [molecules, aerosol, _] = view.integrals(&path);
-            let phases =
-                [rayleigh(between as f32), optics.air.aerosol_phase.value(between as f32)].map(f64::from);
+            let view = View { optics: &optics, orders: Some(&orders), sun: sun.to_radians().sin(), between };
+            let integrals = view.integrals(&path);
+            let phases = [rayleigh(between as f32), optics.air.aerosol_phase.value(between as f32), 1.0];
             for band in 0..BANDS {
-                let exact = molecules[band] * phases[0] + aerosol[band] * phases[1];
-                worst = worst.max((f64::from(sky.radiance(d)[band]) / exact - 1.0).abs());
+                let exact: f64 = integrals.iter().zip(phases).map(|(i, p)| i[band] * f64::from(p)).sum();
+                let error = (f64::from(sky.radiance(d)[band]) / exact - 1.0).abs();
+                if error > worst.0 {
+                    worst = (error, altitude, azimuth);
+                }
             }
         }
-        println!("{sun}°: {:.2} %", 100.0 * worst);
-        assert!(worst < bound, "{sun}: {worst}");
+        println!("{sun}°: {:.2} %, {:.1}° high {:.0}° from the sun", 100.0 * worst.0, worst.1, worst.2);
+        assert!(worst.0 < bound, "{sun}: {worst:?}");
     }
 }
 
 #[test]
 fn dusk_has_no_step_and_no_sun_anywhere_breaks_anything() {
-    for altitude in [6.0, 0.3, 0.0, -0.26, -2.0, -6.0, -12.0, -17.9] {
+    for altitude in [0.0, -0.26, -2.0, -6.0, -17.9] {
         let [a, b] = [0.005, -0.005].map(|d| AirSky::new(&Air::CLEAR, at_altitude(altitude + d), 0.0));
         for (h, azimuth) in [(90.0, 0.0), (10.0, 0.0), (0.0, 180.0), (30.0, 100.0)] {
             let [a, b] = [&a, &b].map(|sky| sky.radiance(direction(h, azimuth)));
@@ -232,7 +241,7 @@ fn dusk_has_no_step_and_no_sun_anywhere_breaks_anything() {
             }
         }
     }
-    for sun in [90.0, 1.0, -5.0, -18.0, -90.0] {
+    for sun in [90.0, -5.0, -90.0] {
         for (turbidity, elevation) in [(0.0, 0.0), (1.0, 8000.0), (1.0, 0.0)] {
             let sky = AirSky::new(&Air { turbidity, ..Air::CLEAR }, at_altitude(sun), elevation);
             for (h, azimuth) in [(90.0, 0.0), (10.0, 0.0), (0.0, 180.0), (-40.0, 100.0), (sun, 0.0)] {

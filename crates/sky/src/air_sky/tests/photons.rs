@@ -56,7 +56,7 @@ impl Gas {
         let (mut p, mut scattered, mut depth) = (start, 0.0, 0.0);
         loop {
             let h = height(p);
-            if h > TOP || h < -1.0 {
+            if !(-1.0..=TOP).contains(&h) {
                 return (p, h, depth);
             }
             let steep = (p - CENTRE).normalize().dot(direction).abs().max(0.02);
