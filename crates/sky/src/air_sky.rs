@@ -18,7 +18,7 @@ use crate::slant::GLOBE;
 /// Rows of the table over the direction's altitude h, which are even in √h: closest at the horizon.
 const ROWS: usize = 64;
 /// Columns over (1 − cos azimuth)/2 from the sun, even.
-const COLUMNS: usize = 32;
+const COLUMNS: usize = 48;
 /// Places along each ray.
 const STATIONS: usize = 32;
 
@@ -31,7 +31,11 @@ const STATIONS: usize = 32;
 /// without their phase functions: they vary slowly over the sky, and the sun's bright surroundings are
 /// exact.
 ///
-/// The table is bilinear between 64 altitudes and 32 azimuths
+/// The table is bilinear in logarithms between 64 altitudes and 48 azimuths: within 0.2 % of the integrals by day, 1 % with the
+/// sun on the horizon and below. The bands are within 0.5 % of spectra in steps of 5 nm, single scattering within
+/// 1 % of a plain sum by day (3 % by dusk), and irradiance on the ground within 2 % of what single paths of light,
+/// followed one by one, bring there under suns from 5° up; so the tests find. Deep twilight has no such reference
+/// here. A sky takes some 0.3 s to make with multiple scattering, 0.05 s without.
 #[derive(Clone, Debug)]
 pub struct AirSky {
     /// Not below the horizon, for `brightest`.
@@ -40,8 +44,11 @@ pub struct AirSky {
     /// Unit horizontal vector towards the sun's azimuth.
     ahead: Vec3,
     phase: Lobes,
-    /// By row and column: once scattered by molecules and by aerosol, without the phase functions, and the rest.
+    /// By row and column: once scattered by molecules and by aerosol, without the phase functions, and the rest; as
+    /// logarithms, after `floor` was added.
     table: Vec<[[Spectrum; 3]; COLUMNS]>,
+    /// What is next to nothing in each of the three.
+    floor: [Spectrum; 3],
 }
 
 impl AirSky {
@@ -65,15 +72,33 @@ impl AirSky {
                 view.integrals(&whole).map(|wide| Spectrum(wide.map(|x| x as f32)))
             })
         };
+        let mut table: Vec<[[Spectrum; 3]; COLUMNS]> = (0..ROWS).map(row).collect();
+        let floor = floor(&table);
+        for cell in table.iter_mut().flatten() {
+            for (part, floor) in cell.iter_mut().zip(floor) {
+                *part = (*part + floor).map(f32::ln);
+            }
+        }
         let brightest = lifted(toward_sun);
         Self {
             brightest,
             toward_sun,
             ahead: Vec3::new(brightest.x, 0.0, brightest.z).try_normalize().unwrap_or(Vec3::NEG_Z),
             phase: optics.air.aerosol_phase,
-            table: (0..ROWS).map(row).collect(),
+            table,
+            floor,
         }
     }
+}
+
+/// A millionth of the largest value of each part and band: where the globe's shadow ends a logarithm needs one.
+fn floor(table: &[[[Spectrum; 3]; COLUMNS]]) -> [Spectrum; 3] {
+    std::array::from_fn(|part| {
+        let largest = table.iter().flatten().fold(Spectrum::ZERO, |largest, cell| {
+            Spectrum(std::array::from_fn(|band| largest[band].max(cell[part][band])))
+        });
+        largest.map(|x| (1e-6 * x).max(f32::MIN_POSITIVE))
+    })
 }
 
 /// Altitude of a unit vector \[rad\].
@@ -172,13 +197,14 @@ impl Sky for AirSky {
         let shares = [(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v];
         let between = direction.dot(self.toward_sun);
         let phases = [rayleigh(between), self.phase.value(between), 1.0];
-        let mut sum = Spectrum::ZERO;
-        for (corner, share) in corners.into_iter().zip(shares) {
-            for (part, phase) in corner.iter().zip(phases) {
-                sum = part.mul_add(Spectrum::splat(share * phase), sum);
+        let part = |part: usize| {
+            let mut log = Spectrum::ZERO;
+            for (corner, share) in corners.iter().zip(shares) {
+                log = corner[part].mul_add(Spectrum::splat(share), log);
             }
-        }
-        sum
+            (log.map(f32::exp) - self.floor[part]).map(|x| x.max(0.0)) * phases[part]
+        };
+        part(0) + part(1) + part(2)
     }
 
     fn brightest(&self) -> Vec3 {

@@ -22,7 +22,7 @@ impl Lobes {
     /// Fog, 1 + 50 cos⁶⁴(θ/2) (thesis 4.11).
     pub const FOG: Self = Self { weights: [1.0, 50.0, 0.0], powers: [32, 0] };
     /// The thesis' haze repaired: with B = 0.09 and nothing absorbed, single scattering has the CIE clear sky's
-    /// luminances within 10 % of its maximum, above 10° and more than 2.5° from the sun.
+    /// luminances within 11 % of its maximum, above 10° and more than 2.5° from the sun.
     pub const REPAIRED: Self = Self { weights: [0.0446, 0.263, 0.373], powers: [8, 64] };
 
     /// P at the cosine of the scattering angle \[1/sr\].

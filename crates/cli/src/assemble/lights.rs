@@ -119,6 +119,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
     let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
     let conditions = Conditions {
         scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+        elevation_m: scene.site.elevation,
         ..Conditions::new(toward_sun)
     };
     let description = Description {

@@ -66,9 +66,10 @@ fn single_scattering_is_that_of_a_plain_sum() {
                 for band in [0, 6] {
                     let exact = reference::radiance(&optics, band, d, at_altitude(sun), elevation);
                     let ours = f64::from(sky.radiance(d)[band]);
-                    // The plain sum's steps and the slant columns' 3e-4 of depths up to 10 make 0.5 %, the table in
-                    // full daylight as much; in twilight what is dark (below a thousandth of the zenith) is as wrong
-                    // as that.
+                    // The plain sum's steps and 32 points along a ray make 0.5 %, the slant columns' 3e-4 of depths
+                    // up to 10 as much; the table, with multiple scattering left out and the sun on the horizon or
+                    // below, 2 %: there light falls to 1/e within 15° of azimuth. What is dark (below a thousandth of
+                    // the zenith, where the orders that are left out here shine) is as wrong as that.
                     let zenith = f64::from(sky.radiance(Vec3::Y)[band]);
                     let bound = if sun > 0.0 { 0.01 * exact } else { 0.03 * exact + 1e-3 * zenith };
                     assert!(
@@ -196,7 +197,7 @@ fn bands_are_within_half_a_percent_of_spectra_in_steps_of_5_nm() {
 
 #[test]
 fn the_table_is_within_its_stated_error() {
-    for (sun, bound) in [(60.0f64, 0.002), (10.0, 0.005), (-3.0, 0.03)] {
+    for (sun, bound) in [(60.0f64, 0.002), (10.0, 0.002), (0.0, 0.01), (-4.0, 0.01)] {
         let optics = Optics::new(&Air::CLEAR);
         let sky = AirSky::with(&optics, at_altitude(sun), 0.0);
         let orders = Orders::new(&optics, sun.to_radians());
