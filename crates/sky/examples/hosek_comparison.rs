@@ -1,11 +1,12 @@
 //! The air's sky beside that of Hošek and Wilkie (2012): ratios, as they are, nothing tuned.
 //!
-//! `cargo run --release -p keikan-sky --example hosek_comparison -- TABLE.csv`, a table with lines of turbidity, the
-//! sun's altitude, altitude, azimuth from the sun \[degrees\] and the radiances at 400, 440, …, 680 nm
-//! \[W m⁻² sr⁻¹ nm⁻¹\], for a ground of albedo 0.1. Lines that do not begin with a number are passed over.
+//! `cargo run --release -p keikan-sky --example hosek_comparison -- TABLE.csv`, a table with lines of
+//! turbidity, the sun's altitude, altitude, azimuth from the sun \[degrees\] and the radiances at 400, 440, …,
+//! 680 nm \[W m⁻² sr⁻¹ nm⁻¹\], for a ground of albedo 0.1. Lines that do not begin with a number are passed
+//! over.
 //!
-//! Turbidity T is another measure than Ångström's β. Here β = 0.04 (T − 1)^1.1 stands for it (T = 2: 0.04, 3: 0.09), about
-//! what equal extinction at 550 nm asks for.
+//! Turbidity T is another measure than Ångström's β. Here β = 0.04 (T − 1)^1.1 stands for it (T = 2: 0.04, 3:
+//! 0.09), about what equal extinction at 550 nm asks for.
 
 use std::collections::BTreeMap;
 

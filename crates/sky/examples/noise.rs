@@ -97,7 +97,7 @@ fn noise(dome: &Dome, normal: Vec3, screen: &Screen, exact: f64) -> [f64; 2] {
     let (mut square, mut mean) = (0.0, 0.0);
     for seed in 0..SEEDS {
         let place = Place { position: Vec3::new(3.0, 2.0, 1.0), error: 1e-6, normal, seed };
-        let error = f64::from(dome.irradiance(&place, screen)[3]) / exact - 1.0;
+        let error = f64::from(dome.irradiance(&place, screen).luminance()) / exact - 1.0;
         square += error * error;
         mean += error;
     }
@@ -124,9 +124,8 @@ fn main() {
             {
                 let screens = screens(normal);
                 let sums = integrals(model, sun, normal, &screens);
-                let band = 3;
-                let light =
-                    [domes[0].zenith_radiance()[band], domes[0].ground_radiance()[band]].map(f64::from);
+                let light = [domes[0].zenith_radiance(), domes[0].ground_radiance()]
+                    .map(|radiance| f64::from(radiance.luminance()));
                 let whole = |sum: [f64; 2]| light[0] * sum[0] + light[1] * sum[1];
                 for (screen, &sum) in screens.iter().zip(&sums[1..]) {
                     let exact = whole(sum);

@@ -1,8 +1,9 @@
 //! Every sun from +90° to −18°: is the sky finite everywhere, and without a step?
 //!
-//! `cargo run --release -p keikan-sky --example sky_sweep -- [STEP_DEG] [--single]`; 0.01° takes some 20 minutes for
-//! each of six kinds of air, 1° a few seconds. `--single` leaves multiple scattering out. Prints for each air the largest relative change from
-//! one sun to the next, of the horizontal illuminance and of single directions.
+//! `cargo run --release -p keikan-sky --example sky_sweep -- [STEP_DEG] [--single]`; 0.01° takes some 20
+//! minutes for each of six kinds of air, 1° a few seconds. `--single` leaves multiple scattering out. Prints
+//! for each air the largest relative change from one sun to the next, of the horizontal illuminance and of
+//! single directions.
 
 use glam::Vec3;
 use keikan_sky::{Air, AirSky, Sky, horizontal_illuminance};

@@ -40,9 +40,9 @@ pub struct Air {
 }
 
 impl Air {
-    /// Clear air, whose sun and sky have the illuminances of the IES: each value lies within what occurs, though
-    /// rather at the clean end (aerosol that absorbs nothing, ozone of the tropics), and nothing else but the table in the
-    /// tests has chosen them.
+    /// Clear air, whose sun and sky have the illuminances of the IES: each value lies within what occurs,
+    /// though rather at the clean end (aerosol that absorbs nothing, ozone of the tropics), and nothing else
+    /// but the table in the tests has chosen them.
     pub const CLEAR: Self = Self {
         turbidity: CLEAR_TURBIDITY,
         aerosol_albedo: 1.0,
@@ -174,7 +174,8 @@ impl Optics {
     }
 }
 
-/// Columns along a ray: of molecules and of aerosol \[m of air at sea level\], of ozone in thicknesses of its layer.
+/// Columns along a ray: of molecules and of aerosol \[m of air at sea level\], of ozone in thicknesses of its
+/// layer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Columns(pub(crate) [f64; 3]);
 

@@ -19,10 +19,10 @@ pub const CLEAR_TURBIDITY: f64 = 0.06;
 ///
 ///   I = I₀ exp(−c_R τ_R/8434 m − c_A β λ^(−1)/1200 m − c_O k_O 0.23 atm-cm),   λ in µm
 ///
-/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, and the columns c that a
-/// straight ray meets in a round atmosphere: the very depths of [`crate::AirSky`], with [`Air::CLEAR`] but for the turbidity. Water
-/// vapour and oxygen, which absorb narrow lines towards the red (together below 2 % of the illuminance), are left
-/// out.
+/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, and the columns c
+/// that a straight ray meets in a round atmosphere: the very depths of [`crate::AirSky`], with [`Air::CLEAR`]
+/// but for the turbidity. Water vapour and oxygen, which absorb narrow lines towards the red (together below 2
+/// % of the illuminance), are left out.
 ///
 /// Finite and continuous everywhere; the little that is left at the horizon fades out below it within
 /// about 2°.
@@ -163,5 +163,24 @@ mod tests {
         }
         assert!(direct_beam(30.0, 1e6, 1.0).is_finite());
         assert!(direct_beam(30.0, 0.0, 1e9).is_zero());
+    }
+
+    #[test]
+    fn the_beam_and_the_sky_meet_the_same_air() {
+        use crate::air::Optics;
+        for altitude in [90.0f64, 30.0, 5.0, 1.0] {
+            let beam = beam(&Air::CLEAR, altitude, 0.0);
+            let sky = Optics::new(&Air::CLEAR).sunlight(GLOBE, altitude.to_radians().sin());
+            for (band, sky) in sky.into_iter().enumerate() {
+                // A whole band of width σ against one wavelength: ½ (m 4τ σ/λ)² by Rayleigh's depth, in the bluest
+                // (4 · 0.25 · 11/437)²/2 = 3e-4 m², and half as much again by aerosol's.
+                let air_mass = (1.0 / altitude.to_radians().sin()).min(27.0);
+                let error = f64::from(beam[band]) / sky - 1.0;
+                assert!(error.abs() < 5e-4 * air_mass.powi(2) + 0.001, "{altitude} {band}: {error}");
+            }
+        }
+        for altitude in [-90.0, -30.0, -5.0, 0.0, 90.0] {
+            assert!(direct_beam(altitude, 0.0, 0.0).is_finite(), "{altitude}");
+        }
     }
 }

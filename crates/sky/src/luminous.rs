@@ -17,9 +17,10 @@ pub const OVERCAST_TEMPERATURE: f64 = 6_500.0;
 ///
 /// L_v is the luminance; s the share of clear sky; |·|_v luminance, so that both spectra have a luminance of 1.
 /// clear(ω) is another sky that has a spectrum of its own in each direction, such as the light scattered by
-/// clear air ([`crate::AirSky`]); D is daylight of [`OVERCAST_TEMPERATURE`], the colour of clouds. So a clear standard sky is as
-/// blue away from the sun, and as white around it and along the horizon, as the air would make it. The rule is our
-/// own: measured relations between luminance and colour temperature scatter as widely as it is off.
+/// clear air ([`crate::AirSky`]); D is daylight of [`OVERCAST_TEMPERATURE`], the colour of clouds. So a clear
+/// standard sky is as blue away from the sun, and as white around it and along the horizon, as the air would
+/// make it. The rule is our own: measured relations between luminance and colour temperature scatter as widely
+/// as it is off.
 #[derive(Clone)]
 pub struct Luminous {
     distribution: Distribution,

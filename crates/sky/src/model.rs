@@ -53,7 +53,8 @@ pub struct Conditions {
     pub turbidity: Option<f64>,
     /// Reflectance of the ground that lights the air of [`Model::Physical`] from below; none = the air's own.
     pub ground_albedo: Option<f64>,
-    /// The state of the weather that [`Model::Perez`] shows; none = a clear day by Bouguer and Nagata with a transmittance of 0.7.
+    /// The state of the weather that [`Model::Perez`] shows; none = a clear day by Bouguer and Nagata with a
+    /// transmittance of 0.7.
     pub weather: Option<Perez>,
 }
 

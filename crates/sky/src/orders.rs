@@ -32,17 +32,17 @@ const DARK: f64 = 1e-60;
 ///
 ///   S_(n+1) = σ_s ∫ L_n P dω,     L_n = ∫ S_n T ds + T_ground ρ/π E_(n−1)
 ///
-/// L₁ is single scattering with the true phase functions; E_n is what order n gives the ground, E₀ the direct sun. From
-/// the second scattering on phase functions count up to their second Legendre polynomial (all of molecules', the
-/// gist of aerosol's), so that three moments of L_n over the sphere say all: its mean, ∫ L ω and ∫ L ω ω.
-/// The successive orders are followed up to the fifth; what is beyond is a geometric series with the last two
-/// orders' ratio. Spherical throughout: over the horizon the sun stands elsewhere.
+/// L₁ is single scattering with the true phase functions; E_n is what order n gives the ground, E₀ the direct
+/// sun. From the second scattering on phase functions count up to their second Legendre polynomial (all of
+/// molecules', the gist of aerosol's), so that three moments of L_n over the sphere say all: its mean, ∫ L ω
+/// and ∫ L ω ω. The successive orders are followed up to the fifth; what is beyond is a geometric series with
+/// the last two orders' ratio. Spherical throughout: over the horizon the sun stands elsewhere.
 pub(crate) struct Orders {
     field: Field,
 }
 
-/// Moments of radiance over the sphere: Ψ = ∫ L dω/4π, and ∫ L f dω/4π for f = up, sunward, up², sunward², up · sunward,
-/// the cosines of the direction to the vertical and to the horizontal bearing of the sun.
+/// Moments of radiance over the sphere: Ψ = ∫ L dω/4π, and ∫ L f dω/4π for f = up, sunward, up², sunward², up ·
+/// sunward, the cosines of the direction to the vertical and to the horizontal bearing of the sun.
 type Moments = [Wide; 6];
 
 /// Moments by height and sun: the first as its logarithm, the others as shares of it.

@@ -17,10 +17,11 @@ const OZONE_LAYER: [f64; 2] = [12_000.0, 32_000.0];
 ///
 ///   ∫ = H e^(−h/H) Ch(x, χ),   Ch = √(πx/2) erfcx(y) (1 + (1 − ⅝/(1 + y²))/x),   y = √(x/2) cos χ ≥ 0
 ///
-/// The form without the last factor is Smith and Smith's (1972); the factor is made to be exact in 1/x at the zenith
-/// and at the horizon: off by 3e-4 of the column at most. For a ray that first falls to its lowest point, twice
-/// what there is from that point on less what lies behind the start. A ray that meets the globe goes on through it,
-/// in air that gets exponentially denser: its column grows without a step, and without bound.
+/// The form without the last factor is Smith and Smith's (1972); the factor is made to be exact in 1/x at the
+/// zenith and at the horizon: off by 3e-4 of the column at most. For a ray that first falls to its lowest
+/// point, twice what there is from that point on less what lies behind the start. A ray that meets the globe
+/// goes on through it, in air that gets exponentially denser: its column grows without a step, and without
+/// bound.
 pub(crate) fn exponential(scale: f64, r: f64, mu: f64) -> f64 {
     let half = rising(scale, r, mu.abs());
     if mu >= 0.0 {

@@ -168,30 +168,30 @@ fn light_is_neither_made_nor_lost_where_nothing_absorbs() {
 }
 
 #[test]
-fn bands_are_within_half_a_percent_of_spectra_in_steps_of_5_nm() {
-    let toward = at_altitude(20.0);
-    let directions = [(90.0, 0.0), (30.0, 90.0), (5.0, 30.0), (1.0, 180.0)];
-    let table = |optics: &Optics| {
-        let sky = AirSky::with(optics, toward, 0.0);
-        directions.map(|(h, a)| sky.radiance(direction(h, a)))
-    };
-    let ours = table(&Optics::new(&Air::CLEAR));
-    let mut spectra = [const { Vec::new() }; 4];
-    for group in 0..10 {
-        let nm: Wide = std::array::from_fn(|k| 380.0 + 5.0 * (8 * group + k) as f64);
-        for (spectrum, values) in spectra.iter_mut().zip(table(&Optics::at(&Air::CLEAR, nm))) {
-            spectrum.extend(nm.iter().zip(values.0).map(|(&nm, value)| (nm, f64::from(value))));
+fn bands_are_near_spectra_in_steps_of_5_nm() {
+    // A band has width σ: ½ (m 4τ σ/λ)² of what has come through air mass m, 3e-4 m² in the bluest; at 5° (m = 10) 3 %.
+    // Luminance hardly sees it.
+    for (sun, bound, luminance) in [(20.0, 0.005, 0.001), (5.0, 0.03, 0.001)] {
+        let directions = [(90.0, 0.0), (30.0, 90.0), (5.0, 30.0), (1.0, 180.0)];
+        let table = |optics: &Optics| {
+            let sky = AirSky::with(optics, at_altitude(sun), 0.0);
+            directions.map(|(h, a)| sky.radiance(direction(h, a)))
+        };
+        let ours = table(&Optics::new(&SINGLE));
+        let mut spectra = [const { Vec::new() }; 4];
+        for group in 0..10 {
+            let nm: Wide = std::array::from_fn(|k| 380.0 + 5.0 * (8 * group + k) as f64);
+            for (spectrum, values) in spectra.iter_mut().zip(table(&Optics::at(&SINGLE, nm))) {
+                spectrum.extend(nm.iter().zip(values.0).map(|(&nm, value)| (nm, f64::from(value))));
+            }
         }
-    }
-    for (ours, spectrum) in ours.iter().zip(&spectra) {
-        let exact = Spectrum::from_table(spectrum);
-        for band in 0..BANDS {
-            let error = ours[band] / exact[band] - 1.0;
-            println!("band {band}: {:+.3} %", 100.0 * error);
-            assert!(error.abs() < 0.005, "{band}: {error}");
+        for (ours, spectrum) in ours.iter().zip(&spectra) {
+            let exact = Spectrum::from_table(spectrum);
+            let errors: Vec<f32> = (0..BANDS).map(|band| ours[band] / exact[band] - 1.0).collect();
+            let error = ours.luminance() / exact.luminance() - 1.0;
+            println!("{sun}°: bands {errors:.4?}, luminance {error:+.5}");
+            assert!(errors.iter().all(|error| error.abs() < bound) && error.abs() < luminance);
         }
-        let error = ours.luminance() / exact.luminance() - 1.0;
-        assert!(error.abs() < 0.002, "luminance: {error}");
     }
 }
 
