@@ -33,7 +33,7 @@ const STATIONS: usize = 32;
 ///
 /// The table is bilinear in logarithms between 64 altitudes and 48 azimuths: within 0.2 % of the integrals by day,
 /// 1 % with the sun on the horizon and below. One wavelength for each band leaves 0.5 % against spectra in steps of
-/// 5 nm under suns from 20° up, under one at 5° 3 % in the bluest, of luminance 0.1 %. Single scattering is within
+/// 5 nm under suns from 20° up, under one at 5° 4 % in the bluest, of luminance 0.2 %. Single scattering is within
 /// 1 % of a plain sum by day (3 % by dusk), and irradiance on the ground within 2 % of what single paths of light,
 /// followed one by one, bring there under suns from 5° up; so the tests find. Deep twilight has no such reference
 /// here. A sky takes some 0.3 s to make with multiple scattering, 0.05 s without.
