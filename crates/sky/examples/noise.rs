@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::Vec3;
-use keikan_sky::{Description, Dome, Pattern};
+use keikan_sky::{Conditions, Description, Dome, Model};
 use light::{Illuminate, Occlude, Place, Ray, Spectrum};
 
 const SAMPLES: [u32; 4] = [16, 48, 64, 256];
@@ -54,20 +54,20 @@ fn screens(normal: Vec3) -> [Screen; 5] {
 }
 
 /// L/L_z of the sky in f64; angles from their cosines.
-fn luminance(pattern: Pattern, direction: [f64; 3], sun: [f64; 3]) -> f64 {
+fn luminance(model: Model, direction: [f64; 3], sun: [f64; 3]) -> f64 {
     let cos = (0..3).map(|k| direction[k] * sun[k]).sum::<f64>().clamp(-1.0, 1.0);
     let clear = |cos: f64, height: f64| {
         (0.91 + 10.0 * (-3.0 * cos.acos()).exp() + 0.45 * cos * cos) * (1.0 - (-0.32 / height).exp())
     };
-    match pattern {
-        Pattern::Uniform => 1.0,
-        Pattern::Overcast => (1.0 + 2.0 * direction[1]) / 3.0,
-        Pattern::Clear => clear(cos, direction[1]) / clear(sun[1], 1.0),
+    match model {
+        Model::Uniform => 1.0,
+        Model::Overcast => (1.0 + 2.0 * direction[1]) / 3.0,
+        _ => clear(cos, direction[1]) / clear(sun[1], 1.0),
     }
 }
 
 /// ∫ L/L_z T cos⁺ over the sky, and ∫ T cos⁺ over the ground: \[open, behind the screens\].
-fn integrals(pattern: Pattern, sun: Vec3, normal: Vec3, screens: &[Screen]) -> Vec<[f64; 2]> {
+fn integrals(model: Model, sun: Vec3, normal: Vec3, screens: &[Screen]) -> Vec<[f64; 2]> {
     let [sun, n] = [sun, normal].map(|v| v.as_dvec3().normalize().to_array());
     let mut sums = vec![[0.0; 2]; screens.len() + 1];
     let [step, turn] = [PI / BANDS as f64, 2.0 * PI / (4 * BANDS) as f64];
@@ -81,7 +81,7 @@ fn integrals(pattern: Pattern, sun: Vec3, normal: Vec3, screens: &[Screen]) -> V
                 continue;
             }
             let part = usize::from(sin < 0.0);
-            let value = if part == 0 { luminance(pattern, d, sun) } else { 1.0 } * cosine * cos * step * turn;
+            let value = if part == 0 { luminance(model, d, sun) } else { 1.0 } * cosine * cos * step * turn;
             let direction = Vec3::new(d[0] as f32, d[1] as f32, d[2] as f32);
             sums[0][part] += value;
             for (sum, screen) in sums[1..].iter_mut().zip(screens) {
@@ -97,7 +97,7 @@ fn noise(dome: &Dome, normal: Vec3, screen: &Screen, exact: f64) -> [f64; 2] {
     let (mut square, mut mean) = (0.0, 0.0);
     for seed in 0..SEEDS {
         let place = Place { position: Vec3::new(3.0, 2.0, 1.0), error: 1e-6, normal, seed };
-        let error = f64::from(dome.irradiance(&place, screen)[3]) / exact - 1.0;
+        let error = f64::from(dome.irradiance(&place, screen).luminance()) / exact - 1.0;
         square += error * error;
         mean += error;
     }
@@ -108,13 +108,14 @@ fn main() {
     println!("sky sun normal screen | open share | noise by samples {SAMPLES:?} | bias, per cent");
     let mut logs = [0.0; SAMPLES.len()];
     let mut cases = 0;
-    for (pattern, altitudes) in [(Pattern::Clear, &[5.0f32, 20.0, 60.0][..]), (Pattern::Overcast, &[40.0])] {
+    for (model, altitudes) in [(Model::Clear, &[5.0f32, 20.0, 60.0][..]), (Model::Overcast, &[40.0])] {
         for &altitude in altitudes {
             let (sin, cos) = altitude.to_radians().sin_cos();
             let sun = Vec3::new(0.0, sin, -cos);
             let sun_horizontal = Spectrum::splat(if altitude > 10.0 { 0.9 * sin } else { 0.02 });
             let domes = SAMPLES.map(|samples| {
-                Dome::new(&Description { samples, sun_horizontal, ..Description::new(pattern, sun) })
+                let sky = model.sky(&Conditions::new(sun));
+                Dome::new(&Description { samples, sun_horizontal, ..Description::new(sky) })
             });
             let tilt = (PI / 6.0).sin_cos();
             let tilted = turned(Vec3::NEG_Z, 120.0) * tilt.0 as f32 + Vec3::Y * tilt.1 as f32;
@@ -122,16 +123,15 @@ fn main() {
                 [("up", Vec3::Y), ("to sun", Vec3::NEG_Z), ("away", Vec3::Z), ("tilted", tilted)]
             {
                 let screens = screens(normal);
-                let sums = integrals(pattern, sun, normal, &screens);
-                let band = 3;
-                let light =
-                    [domes[0].zenith_radiance()[band], domes[0].ground_radiance()[band]].map(f64::from);
+                let sums = integrals(model, sun, normal, &screens);
+                let light = [domes[0].zenith_radiance(), domes[0].ground_radiance()]
+                    .map(|radiance| f64::from(radiance.luminance()));
                 let whole = |sum: [f64; 2]| light[0] * sum[0] + light[1] * sum[1];
                 for (screen, &sum) in screens.iter().zip(&sums[1..]) {
                     let exact = whole(sum);
                     let share = exact / whole(sums[0]);
                     let measured = domes.each_ref().map(|dome| noise(dome, normal, screen, exact));
-                    print!("{:8} {altitude:2}° {name:6} {:17} | {share:5.3} |", pattern.name(), screen.name);
+                    print!("{:8} {altitude:2}° {name:6} {:17} | {share:5.3} |", model.name(), screen.name);
                     measured.iter().for_each(|[rms, _]| print!(" {:6.2}", 100.0 * rms));
                     print!(" |");
                     measured.iter().for_each(|[_, bias]| print!(" {:6.2}", 100.0 * bias));

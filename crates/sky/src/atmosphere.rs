@@ -2,31 +2,27 @@
 
 use light::Spectrum;
 
+use crate::air::{Air, columns, per_column};
+use crate::slant::GLOBE;
 use crate::solar_spectrum;
 
-/// Height over which air thins out to 1/e, at 15 °C \[m\].
-const AIR_SCALE_HEIGHT: f64 = 8434.0;
-/// Height over which aerosol thins out to 1/e \[m\] (thesis 4.2).
-const AEROSOL_SCALE_HEIGHT: f64 = 1200.0;
-/// Ozone column \[atm-cm\]: 300 Dobson units, the mean over the globe and the year; 220 to 450 occur.
-const OZONE_COLUMN: f64 = 0.3;
-
-/// Ångström's β of the clear air to which the IES' direct illuminances belong (within 3 % of them from 10° up).
+/// Ångström's β of the clear air to which the IES' illuminances of sun and sky belong.
 ///
 /// 0.05 is clean, 0.1 usual near towns, 0.2 hazy.
 pub const CLEAR_TURBIDITY: f64 = 0.06;
 
 /// Irradiance of the direct sun on a plane that faces it, through a clear sky \[W m⁻² nm⁻¹\].
 ///
-/// `altitude_deg` is the apparent height of the sun (refraction included), within \[−90, 90\];
+/// `altitude_deg` is the height of the sun, within \[−90, 90\];
 /// `elevation_m` the observer's height above the sea \[m\]; `turbidity_beta` Ångström's turbidity β ≥ 0 at
 /// sea level, the vertical optical depth of aerosol at 1 µm.
 ///
-///   I = I₀ exp(−m τ_R e^(−z/8434 m) − m β λ^(−1) e^(−z/1200 m) − m_O k_O 0.3 atm-cm),   λ in µm
+///   I = I₀ exp(−c_R τ_R/8434 m − c_A β λ^(−1)/1200 m − c_O k_O 0.23 atm-cm),   λ in µm
 ///
-/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, the relative air
-/// masses m of [`air_mass`] and m_O of a layer at 22 km. Water vapour and oxygen, which absorb narrow
-/// lines towards the red (together below 2 % of the illuminance), are left out.
+/// with the Rayleigh depth τ_R of Bodhaine 1999, the ozone absorption k_O of Serdyuchenko, and the columns c
+/// that a straight ray meets in a round atmosphere: the very depths of [`crate::AirSky`], with [`Air::CLEAR`]
+/// but for the turbidity. Water vapour and oxygen, which absorb narrow lines towards the red (together below 2
+/// % of the illuminance), are left out.
 ///
 /// Finite and continuous everywhere; the little that is left at the horizon fades out below it within
 /// about 2°.
@@ -37,12 +33,16 @@ pub const CLEAR_TURBIDITY: f64 = 0.06;
 /// assert!(evening[0] / noon[0] < evening[7] / noon[7]); // a low sun is red
 /// ```
 pub fn direct_beam(altitude_deg: f64, elevation_m: f64, turbidity_beta: f64) -> Spectrum {
-    let m = air_mass(altitude_deg);
-    let air = m * (-elevation_m / AIR_SCALE_HEIGHT).exp();
-    let aerosol = m * turbidity_beta.max(0.0) * (-elevation_m / AEROSOL_SCALE_HEIGHT).exp();
-    let ozone = ozone_air_mass(altitude_deg) * OZONE_COLUMN;
+    let air = Air { turbidity: turbidity_beta.max(0.0), ..Air::CLEAR };
+    beam(&air, altitude_deg, elevation_m)
+}
+
+/// The same through any air.
+pub fn beam(air: &Air, altitude_deg: f64, elevation_m: f64) -> Spectrum {
+    let columns = columns(air, GLOBE + elevation_m.max(0.0), altitude_deg.to_radians().sin());
     Spectrum::from_fn(|nm| {
-        let depth = air * rayleigh_depth(nm) + aerosol * 1000.0 / nm + ozone * ozone_absorption(nm);
+        let per = per_column(air, nm);
+        let depth: f64 = columns.0.iter().zip(per).map(|(column, per)| column * per).sum();
         solar_spectrum::irradiance(nm) * (-depth).exp()
     })
 }
@@ -66,13 +66,6 @@ pub fn air_mass(altitude_deg: f64) -> f64 {
     let at_horizon = denominator(0.0);
     let slope = (std::f64::consts::PI / 180.0 - A * C * B.powf(-C - 1.0)) / at_horizon;
     (-slope * altitude_deg).exp() / at_horizon
-}
-
-/// Relative air mass of the ozone layer, a thin shell 22 km high over a globe of 6371 km (Robinson 1966).
-fn ozone_air_mass(altitude_deg: f64) -> f64 {
-    const RATIO: f64 = 22.0 / 6371.0;
-    let sin = altitude_deg.clamp(0.0, 90.0).to_radians().sin();
-    (1.0 + RATIO) / (sin * sin + 2.0 * RATIO + RATIO * RATIO).sqrt()
 }
 
 /// Vertical optical depth of the air at sea level, 1013.25 hPa (Bodhaine et al. 1999, eq. 30), 1.
@@ -99,7 +92,7 @@ const OZONE: [f64; 48] = [
 ];
 
 /// Absorption of ozone \[per atm-cm\], linear between the table's entries, constant beyond its ends.
-fn ozone_absorption(nm: f64) -> f64 {
+pub(crate) fn ozone_absorption(nm: f64) -> f64 {
     let at = ((nm - 365.0) / 10.0).clamp(0.0, (OZONE.len() - 1) as f64);
     let first = (at as usize).min(OZONE.len() - 2);
     OZONE[first] + (at - first as f64) * (OZONE[first + 1] - OZONE[first])
@@ -170,5 +163,24 @@ mod tests {
         }
         assert!(direct_beam(30.0, 1e6, 1.0).is_finite());
         assert!(direct_beam(30.0, 0.0, 1e9).is_zero());
+    }
+
+    #[test]
+    fn the_beam_and_the_sky_meet_the_same_air() {
+        use crate::air::Optics;
+        for altitude in [90.0f64, 30.0, 5.0, 1.0] {
+            let beam = beam(&Air::CLEAR, altitude, 0.0);
+            let sky = Optics::new(&Air::CLEAR).sunlight(GLOBE, altitude.to_radians().sin());
+            for (band, sky) in sky.into_iter().enumerate() {
+                // A whole band of width σ against one wavelength: ½ (m 4τ σ/λ)² by Rayleigh's depth, in the bluest
+                // (4 · 0.25 · 11/437)²/2 = 3e-4 m², and half as much again by aerosol's.
+                let air_mass = (1.0 / altitude.to_radians().sin()).min(27.0);
+                let error = f64::from(beam[band]) / sky - 1.0;
+                assert!(error.abs() < 5e-4 * air_mass.powi(2) + 0.001, "{altitude} {band}: {error}");
+            }
+        }
+        for altitude in [-90.0, -30.0, -5.0, 0.0, 90.0] {
+            assert!(direct_beam(altitude, 0.0, 0.0).is_finite(), "{altitude}");
+        }
     }
 }

@@ -4,8 +4,8 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::Vec3;
 
-use crate::Pattern;
-use crate::pattern::lifted;
+use crate::Sky;
+use crate::sky::lifted;
 
 /// Bands of altitude below the horizon, 5.6° each, where radiance is everywhere the same.
 const GROUND_ROWS: usize = 16;
@@ -22,11 +22,15 @@ const FINE: usize = 4;
 /// mean of the example `noise` at 64 directions and more; 0.75 is better by a tenth at 16.
 const FLATTEN: f32 = 0.75;
 
+/// What a cell counts at least, as a share of the mean luminance: between the points at which a dark cell was
+/// asked there may be light.
+const DARKEST: f32 = 1e-3;
+
 /// Sky and ground in cells of nearly even luminance.
 ///
 /// For a plane of normal n a cell of mean luminance L and solid angle Ω is chosen by its weight
 ///
-///   W = L_z (L/L_z)^¾ · Ω · mean cos⁺(n),
+///   W = L_m (L/L_m)^¾ · Ω · mean cos⁺(n),   L_m = E_horizontal/π,
 ///
 /// and directions lie evenly within it. W is found anew for each plane, by 2560 products without a branch (some
 /// 1 µs), so that no table over normals is needed. It need not be exact: it only chooses, and what is chosen
@@ -89,11 +93,11 @@ impl Row {
 }
 
 impl SkyCells {
-    /// `zenith` and `ground` are the radiance of the zenith and of the ground, on any scale.
-    pub(crate) fn new(pattern: Pattern, toward_sun: Vec3, [zenith, ground]: [f32; 2]) -> Self {
-        let sun = lifted(toward_sun);
-        let per_zenith = 1.0 / pattern.shape(Vec3::Y, sun);
-        let ahead = Vec3::new(sun.x, 0.0, sun.z).try_normalize().unwrap_or(Vec3::NEG_Z);
+    /// `mean` and `ground` are the luminance \[cd/m²\] that, from everywhere, would give the horizontal what the sky
+    /// gives it, and that of the ground.
+    pub(crate) fn new(sky: &dyn Sky, mean: f32, ground: f32) -> Self {
+        let toward = lifted(sky.brightest());
+        let ahead = Vec3::new(toward.x, 0.0, toward.z).try_normalize().unwrap_or(Vec3::NEG_Z);
         let middles = std::array::from_fn(|column| bearing(column as f32 + 0.5));
         let mut cells = Self {
             ahead,
@@ -102,12 +106,14 @@ impl SkyCells {
             azimuth: [middles.map(|[cos, _]: [f32; 2]| cos), middles.map(|[_, sin]| sin)],
             rows: std::array::from_fn(Row::new),
         };
+        let scale = if mean.is_normal() { 1.0 / mean } else { 0.0 };
         for row in 0..ROWS {
             for column in 0..COLUMNS {
                 cells.power[row][column] = if row < GROUND_ROWS {
                     ground * cells.rows[row].solid_angle
                 } else {
-                    zenith * cells.mean(row, column, |d| (pattern.shape(d, sun) * per_zenith).powf(FLATTEN))
+                    let flat = |d| (sky.radiance(d).luminance() * scale).max(DARKEST).powf(FLATTEN);
+                    mean * cells.mean(row, column, flat)
                 };
             }
         }
@@ -201,16 +207,12 @@ impl Facing<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::luminous::tests::standard;
     use crate::open_sky::OpenSky;
     use crate::sampling::{lattice, shift};
 
     const NORMALS: [Vec3; 6] =
         [Vec3::Y, Vec3::X, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.36, -0.8, -0.48)];
-
-    fn at_altitude(degrees: f32) -> Vec3 {
-        let h = degrees.to_radians();
-        Vec3::new(h.cos(), h.sin(), 0.0)
-    }
 
     #[test]
     fn what_is_chosen_sums_to_what_an_open_plane_receives() {
@@ -219,32 +221,29 @@ mod tests {
         // of the ground count twice: 2 n^(−3/4) = 0.7 % of all for each shift, a root of 64 less for their mean;
         // thrice that for the largest of all cases.
         let spread = 3.0 * 0.007 / 8.0;
-        for (pattern, altitude) in [
-            (Pattern::Clear, 5.0),
-            (Pattern::Clear, 50.0),
-            (Pattern::Overcast, 30.0),
-            (Pattern::Uniform, 0.0),
-        ] {
-            let sun = at_altitude(altitude);
-            let (cells, open) = (SkyCells::new(pattern, sun, [1.0, 0.5]), OpenSky::new(pattern, sun));
-            let brightest = open.on_plane(sun).max(open.horizontal());
+        for (name, altitude) in [("clear", 5.0), ("clear", 50.0), ("overcast", 30.0), ("uniform", 0.0)] {
+            let sky = standard(name, altitude);
+            let open = OpenSky::new(&sky);
+            let horizontal = open.horizontal().luminance();
+            let cells = SkyCells::new(&sky, horizontal / std::f32::consts::PI, 0.5 * horizontal);
+            let brightest = open.on_plane(sky.brightest()).luminance().max(horizontal);
             for normal in NORMALS {
                 let facing = cells.facing(normal);
                 let mut sums = [0.0f64; 2];
                 let points =
                     (0..shifts).flat_map(|seed| (0..count).map(move |i| lattice(i, count, shift(seed, 1))));
                 for (direction, part, per_density) in points.filter_map(|at| facing.choose(at)) {
-                    let luminance = if part == 0 { pattern.relative_luminance(direction, sun) } else { 1.0 };
+                    let luminance = if part == 0 { sky.radiance(direction).luminance() } else { 1.0 };
                     sums[part] += f64::from(luminance * direction.dot(normal).max(0.0) * per_density);
                 }
                 let scale = f64::from(facing.columns[COLUMNS - 1]) / f64::from(count * shifts);
                 let [sky, ground] = sums.map(|sum| (sum * scale) as f32);
                 // And the table's own stated error.
-                let exact = open.on_plane(normal);
+                let exact = open.on_plane(normal).luminance();
                 assert!((sky - exact).abs() <= (1.1e-3 + spread) * brightest, "{normal}: {sky} {exact}");
                 let exact = 0.5 * std::f32::consts::PI * (1.0 - normal.y);
                 assert!(
-                    (ground - exact).abs() <= spread * brightest.max(std::f32::consts::PI),
+                    (ground - exact).abs() <= spread * std::f32::consts::PI * brightest / horizontal,
                     "{normal}: {ground} {exact}"
                 );
             }
@@ -253,7 +252,7 @@ mod tests {
 
     #[test]
     fn every_direction_in_front_of_a_plane_can_be_chosen() {
-        let cells = SkyCells::new(Pattern::Clear, at_altitude(20.0), [1.0, 0.5]);
+        let cells = SkyCells::new(&standard("clear", 20.0), 1000.0, 500.0);
         for normal in NORMALS {
             let facing = cells.facing(normal);
             for (row, column) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column))) {
@@ -270,7 +269,7 @@ mod tests {
 
     #[test]
     fn sky_is_above_the_horizon_and_ground_below() {
-        let cells = SkyCells::new(Pattern::Clear, at_altitude(20.0), [1.0, 0.5]);
+        let cells = SkyCells::new(&standard("clear", 20.0), 1000.0, 500.0);
         let facing = cells.facing(Vec3::NEG_Z);
         for i in 0..4096 {
             let chosen = facing.choose(lattice(i, 4096, shift(i, 1)));

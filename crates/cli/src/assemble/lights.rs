@@ -3,7 +3,7 @@
 use glam::Vec3;
 use light::{AreaLight, AreaShape, Geometry, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
-use sky::{Description, Dome, Pattern, Sun, atmosphere};
+use sky::{Conditions, Description, Dome, Model, Scale, Sun, atmosphere};
 
 use crate::knobs::Settings;
 use crate::pipeline::Source;
@@ -39,7 +39,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
 /// built for it.
 pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
     let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some()));
-    let sky = pattern(scene, settings).map(|_| (SKY.to_owned(), false));
+    let sky = model(scene, settings).map(|_| (SKY.to_owned(), false));
     let points = scene.lights.iter().map(|light| (light.name.clone(), true));
     let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
     sun.into_iter().chain(sky).chain(points).chain(areas).collect()
@@ -115,26 +115,31 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
 
 /// The skies that there are.
 pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
-    Pattern::ALL.into_iter().map(Pattern::name)
+    Model::all().map(Model::name)
 }
 
 /// What the layer of the sky is called.
 const SKY: &str = "sky";
 
-fn pattern(scene: &Scene, settings: &Settings) -> Option<Pattern> {
-    Pattern::named(plan::sky_model(scene, settings))
+fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
+    Model::named(plan::sky_model(scene, settings))
 }
 
 fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
-    let pattern = pattern(scene, settings)?;
+    let model = model(scene, settings)?;
     // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
     let sun = scene.sun.clone().or_else(|| scene.site.sun());
     let sun = sun.as_ref();
     let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
     let shining = scene.sun.as_ref().filter(|sun| risen(sun));
     let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+    let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
+    let conditions = Conditions {
+        scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+        elevation_m: scene.site.elevation,
+        ..Conditions::new(toward_sun)
+    };
     let description = Description {
-        illuminance: scene.sky.as_ref().and_then(|sky| sky.illuminance).map(|lux| lux as f32),
         sun_horizontal,
         albedo: settings.number("sky.albedo") as f32,
         ground_height: match settings.choice("sky.ground") {
@@ -142,7 +147,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
             _ => None,
         },
         samples: settings.integer("sky.rays"),
-        ..Description::new(pattern, toward_sun)
+        ..Description::new(model.sky(&conditions))
     };
     Some(Source { name: SKY.to_owned(), light: Box::new(Dome::new(&description)), beam: false, point: None })
 }

@@ -1,0 +1,177 @@
+//! The skies that there are, by name.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use crate::general_sky;
+use crate::scale::Scaled;
+use crate::{
+    Air, AirSky, Distribution, Luminous, Perez, SOLAR_CONSTANT, Scale, Sky, bouguer, diffuse_illuminance,
+};
+
+/// A sky that can be chosen by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// The same luminance everywhere, of daylight's colour; as bright as an overcast sky.
+    Uniform,
+    /// The CIE overcast sky of Moon and Spencer.
+    Overcast,
+    /// The CIE clear sky of 1973, with the colours of [`Model::Physical`].
+    Clear,
+    /// A standard general sky of ISO 15469, type 1 to 15.
+    Cie(usize),
+    /// Perez' all-weather sky, from measured irradiances.
+    Perez,
+    /// Light scattered by clear air, as often as it happens: [`Air::CLEAR`].
+    Physical,
+    /// The thesis' own: single scattering in [`Air::THESIS`].
+    Thesis,
+}
+
+/// Names of the fifteen general skies.
+const GENERAL: [&str; 15] = [
+    "cie-1", "cie-2", "cie-3", "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11",
+    "cie-12", "cie-13", "cie-14", "cie-15",
+];
+
+/// Water vapour above the ground where the dew point is not known \[cm\].
+const PRECIPITABLE_WATER: f64 = 2.0;
+/// Transmittance at the zenith that stands for a clear day where no weather is known.
+const CLEAR_TRANSMITTANCE: f64 = 0.7;
+
+/// What skies are made for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditions {
+    /// Unit vector towards the sun; below the horizon is night or twilight.
+    pub toward_sun: Vec3,
+    /// How bright the sky is made.
+    pub scale: Scale,
+    /// Height of the observer above the sea \[m\], 0 to 50 000.
+    pub elevation_m: f64,
+    /// Ångström's β of the air of physical skies; none = the air's own.
+    pub turbidity: Option<f64>,
+    /// Reflectance of the ground that lights the air of [`Model::Physical`] from below; none = the air's own.
+    pub ground_albedo: Option<f64>,
+    /// The state of the weather that [`Model::Perez`] shows; none = a clear day by Bouguer and Nagata with a
+    /// transmittance of 0.7.
+    pub weather: Option<Perez>,
+}
+
+impl Conditions {
+    /// An ordinary day with the sun there.
+    pub fn new(toward_sun: Vec3) -> Self {
+        Self {
+            toward_sun,
+            scale: Scale::Own,
+            elevation_m: 0.0,
+            turbidity: None,
+            ground_albedo: None,
+            weather: None,
+        }
+    }
+
+    /// Altitude of the sun \[degrees\].
+    pub fn sun_altitude(&self) -> f64 {
+        let [x, y, z] = self.toward_sun.to_array().map(f64::from);
+        y.atan2(x.hypot(z)).to_degrees()
+    }
+
+    /// `air` with what is known of it here.
+    fn in_air(&self, air: Air) -> AirSky {
+        let air = Air {
+            turbidity: self.turbidity.unwrap_or(air.turbidity),
+            ground_albedo: self.ground_albedo.unwrap_or(air.ground_albedo),
+            ..air
+        };
+        AirSky::new(&air, self.toward_sun, self.elevation_m)
+    }
+
+    /// The weather, or a clear day's.
+    fn weather_or_clear(&self) -> Perez {
+        let altitude = self.sun_altitude();
+        self.weather.unwrap_or_else(|| {
+            let direct = bouguer::direct_normal(SOLAR_CONSTANT, CLEAR_TRANSMITTANCE, altitude);
+            let diffuse = bouguer::sky_horizontal(SOLAR_CONSTANT, CLEAR_TRANSMITTANCE, altitude);
+            Perez::new(direct, diffuse, altitude, None)
+        })
+    }
+}
+
+impl Model {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [Self::Clear, Self::Overcast, Self::Uniform, Self::Physical, Self::Thesis, Self::Perez]
+            .into_iter()
+            .chain((1..=15).map(Self::Cie))
+    }
+
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Overcast => "overcast",
+            Self::Clear => "clear",
+            Self::Perez => "perez",
+            Self::Physical => "physical",
+            Self::Thesis => "thesis",
+            Self::Cie(number) => GENERAL[number.clamp(1, GENERAL.len()) - 1],
+        }
+    }
+
+    /// The sky of that name.
+    ///
+    /// ```
+    /// use keikan_sky::Model;
+    /// assert_eq!(Model::named("cie-7"), Some(Model::Cie(7)));
+    /// assert_eq!(Model::named("purple"), None);
+    /// ```
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|model| model.name() == name)
+    }
+
+    /// The sky itself. Those with a clear sky's colours take some 0.2 s to make, the others nothing.
+    pub fn sky(self, conditions: &Conditions) -> Arc<dyn Sky> {
+        let altitude = conditions.sun_altitude();
+        let (sky, own): (Arc<dyn Sky>, Scale) = match self {
+            Self::Physical => (Arc::new(conditions.in_air(Air::CLEAR)), Scale::Own),
+            Self::Thesis => (Arc::new(conditions.in_air(Air::THESIS)), Scale::Own),
+            _ => self.luminous(conditions),
+        };
+        let scale = if conditions.scale == Scale::Own { own } else { conditions.scale };
+        Arc::new(Scaled::new(sky, scale, altitude))
+    }
+
+    /// A distribution of luminance with its colour, and how bright it is by itself.
+    fn luminous(self, conditions: &Conditions) -> (Arc<dyn Sky>, Scale) {
+        let altitude = conditions.sun_altitude();
+        let ies = |clear: f64| Scale::Horizontal(diffuse_illuminance(clear, altitude) as f32);
+        let (distribution, clear, own) = match self {
+            Self::Cie(number) => {
+                let clear = general_sky::clear_share(number);
+                (Distribution::cie(number).unwrap_or(Distribution::UNIFORM), clear, ies(clear))
+            }
+            Self::Perez => {
+                let weather = conditions.weather_or_clear();
+                let clear = weather.clear_share();
+                let own = match conditions.weather {
+                    Some(_) => Scale::Horizontal(weather.illuminances(PRECIPITABLE_WATER)[0] as f32),
+                    None => ies(clear),
+                };
+                (Distribution::perez(&weather), clear, own)
+            }
+            Self::Uniform => (Distribution::UNIFORM, 0.0, ies(0.0)),
+            Self::Overcast => (Distribution::MoonSpencer, 0.0, ies(0.0)),
+            _ => (Distribution::CIE_CLEAR, 1.0, ies(1.0)),
+        };
+        let sky = Luminous::new(distribution, conditions.toward_sun);
+        if clear == 0.0 {
+            return (Arc::new(sky), own);
+        }
+        let air = Arc::new(conditions.in_air(Air::CLEAR));
+        (Arc::new(sky.coloured(air, clear as f32)), own)
+    }
+}
+
+#[cfg(test)]
+mod tests;
