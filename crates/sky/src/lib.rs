@@ -41,14 +41,17 @@ mod air;
 mod air_sky;
 pub mod atmosphere;
 pub mod bouguer;
+mod cuboid;
 mod daylight;
 mod distribution;
 mod dome;
 mod gauss;
 mod general_sky;
+mod ground;
 mod luminous;
 mod measured;
 mod model;
+mod obstacles;
 mod open_sky;
 mod orders;
 mod path;
@@ -64,6 +67,9 @@ mod sun;
 
 pub use air::Air;
 pub use air_sky::AirSky;
+pub use cuboid::{
+    Coverage, CuboidSky, Division, Drawing, ELEMENTS, Element, Face, Layout, Optimum, Rasterise, Things, Viewpoint,
+};
 pub use daylight::diffuse_illuminance;
 pub use distribution::{Distribution, Gradation};
 pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};
