@@ -40,6 +40,7 @@
 mod air;
 mod air_sky;
 pub mod atmosphere;
+mod bands;
 pub mod bouguer;
 mod cuboid;
 mod daylight;
@@ -48,6 +49,7 @@ mod dome;
 mod gauss;
 mod general_sky;
 mod ground;
+mod lru;
 mod luminous;
 mod measured;
 mod model;
@@ -67,6 +69,7 @@ mod sun;
 
 pub use air::Air;
 pub use air_sky::AirSky;
+pub use bands::{BANDS, BandSky};
 pub use cuboid::{
     Coverage, CuboidSky, Division, Drawing, ELEMENTS, Element, Face, Layout, Optimum, Rasterise, Things, Viewpoint,
 };

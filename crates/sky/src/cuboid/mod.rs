@@ -153,7 +153,9 @@ impl CuboidSky {
         let origin = place.leave(place.normal, f32::INFINITY).origin.as_dvec3();
         let rise = origin.y - f64::from(place.position.y);
         let floor = self.around.fall(place).map_or(f64::NEG_INFINITY, |fall| -f64::from(fall) - rise);
-        Viewpoint { origin, normal: place.normal, floor }
+        // Rounding of what was computed in the world's coordinates.
+        let error = f64::from(place.error) + 8.0 * f64::EPSILON * origin.abs().max_element();
+        Viewpoint { origin, error, normal: place.normal, floor }
     }
 
     /// Σ over the elements that are open, each by the share of its parts in front that are.

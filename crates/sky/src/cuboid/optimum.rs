@@ -16,11 +16,31 @@ pub struct Optimum {
 
 /// m, φ \[degrees\] and g for the overcast sky with n = 40. From the example `optimum`:
 /// `cargo run --release -p keikan-sky --example optimum`
-const OVERCAST: [f64; 3] = [1.15, 75.0, 3.0];
+const OVERCAST: [f64; 3] = [1.14, 75.0, 4.01];
 
 /// The same for the CIE clear sky with the sun at altitudes of 0°, 5°, … 90°.
 #[rustfmt::skip]
-const CLEAR: [[f64; 3]; 19] = [[1.15, 75.0, 3.0]; 19];
+const CLEAR: [[f64; 3]; 19] = [
+    [1.88, 60.0, 17.31],
+    [1.78, 57.0, 17.08],
+    [1.62, 56.0, 15.56],
+    [1.46, 56.0, 13.64],
+    [1.36, 56.0, 12.76],
+    [1.32, 58.0, 13.00],
+    [1.32, 61.0, 13.21],
+    [1.28, 62.0, 13.10],
+    [1.24, 63.0, 13.26],
+    [1.24, 65.0, 13.04],
+    [1.24, 66.0, 12.92],
+    [1.24, 66.0, 12.95],
+    [1.22, 68.0, 12.53],
+    [1.20, 68.0, 12.35],
+    [1.20, 69.0, 11.99],
+    [1.20, 70.0, 11.71],
+    [1.18, 70.0, 11.40],
+    [1.18, 70.0, 10.86],
+    [1.18, 70.0, 10.33],
+];
 
 /// Steps of the sun's altitude in the table \[degrees\].
 const STEP: f64 = 5.0;

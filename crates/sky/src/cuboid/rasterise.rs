@@ -5,13 +5,15 @@ use light::{Bodies, Geometry, Mesh};
 
 use super::coverage::Coverage;
 use super::layout::{Face, Layout};
-use crate::obstacles::{Bounds, Obstacles, Visit, above};
+use crate::obstacles::{Bounds, Obstacles, Visit, above, is_edge_on};
 
 /// What is looked at from a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     /// Where \[m\], in the world: just in front of the place's surface.
     pub origin: DVec3,
+    /// How far that may be wrong \[m\]: a face whose plane passes as near hides nothing.
+    pub error: f64,
     /// Unit normal of the place's plane, in the world; nothing behind it matters.
     pub normal: Vec3,
     /// Height \[m\] over the origin of what is too low to hide anything; −∞ = nothing is.
@@ -30,7 +32,7 @@ pub enum Things {
 /// Which elements of the cuboid around a place does the scene cover?
 ///
 /// An element, or each of k × k parts of it, is covered when a thing meets the half-line from the origin through
-/// its *middle*, at any distance but above the floor. Depth does not matter. There is one answer to that, whatever
+/// its *middle*, at any distance but above the floor; things seen from their edge do not count. Depth does not matter. There is one answer to that, whatever
 /// the order of drawing: implementations may differ only where the half-line meets an edge within their rounding.
 pub trait Rasterise: Send + Sync {
     /// Covers, in `bits` (one [`Coverage`] for each face of the layout, of k times its columns and rows), what `things`
@@ -86,7 +88,8 @@ impl Rasterise for Drawing {
         }
         let up = self.frame_from_world * DVec3::Y;
         let normal = self.frame_from_world * view.normal.as_dvec3();
-        let mut pen = Pen { faces: &self.faces, up, normal, floor: view.floor, bits };
+        let Viewpoint { floor, error, .. } = *view;
+        let mut pen = Pen { faces: &self.faces, up, normal, floor, error, bits };
         obstacles.walk(self.frame_from_world * view.origin, &mut pen);
     }
 }
@@ -97,6 +100,7 @@ struct Pen<'a> {
     up: DVec3,
     normal: DVec3,
     floor: f64,
+    error: f64,
     bits: &'a mut [Coverage; 6],
 }
 
@@ -110,7 +114,7 @@ impl Visit for Pen<'_> {
     }
 
     fn triangle(&mut self, corners: [DVec3; 3]) {
-        if corners.iter().all(|&corner| self.normal.dot(corner) <= 0.0) {
+        if corners.iter().all(|&corner| self.normal.dot(corner) <= 0.0) || is_edge_on(&corners, self.error) {
             return;
         }
         if corners.iter().all(|&corner| self.up.dot(corner) >= self.floor) {
@@ -128,7 +132,6 @@ impl Pen<'_> {
         let [a, b, c] = corners;
         let edges = [b.cross(c), c.cross(a), a.cross(b)];
         let volume = a.dot(edges[0]);
-        // Seen from its edge (or not a triangle at all) it hides nothing.
         if volume == 0.0 || !volume.is_finite() {
             return;
         }

@@ -95,7 +95,7 @@ fn compare_bits(sky: &CuboidSky, drawing: &Drawing, geometry: &Geometry, place: 
             let direction = sky.layout.element(&fine, cell).direction;
             let least_height = view.origin.y + view.floor;
             // Two ways of computing in f64, on numbers up to some 10³ times their differences.
-            match meets(geometry, view.origin, direction, least_height, 1e-10) {
+            match meets(geometry, (view.origin, view.error), direction, least_height, 1e-10) {
                 0 => unsure += 1,
                 sign => {
                     assert_eq!(bits[index].is_covered(cell), sign > 0, "{place:?} {index} {cell:?}");
@@ -165,6 +165,7 @@ fn a_street_and_a_town_have_what_very_many_rays_find() {
     }
     let [coarse, fine, parted] = squares.map(|square| (square / 32.0).sqrt());
     println!("n = 10: {coarse:.4}, n = 40: {fine:.4}, n = 10 in 4 × 4 parts: {parted:.4} of the open light");
-    // Edges four times as fine: by first order a quarter, but for what is chance.
-    assert!(fine < 0.5 * coarse && parted < 0.5 * coarse);
+    // Edges four times as fine: by first order a quarter, but for what is chance. Parts make edges finer, but not what an
+    // element weighs.
+    assert!(fine < 0.5 * coarse && parted < coarse);
 }

@@ -47,6 +47,18 @@ struct Placement {
     there_from_first: DAffine3,
 }
 
+/// Whether the plane of a triangle passes the place, the origin, within `error` \[m\] and rounding: it is then seen from its
+/// edge, or it touches the place and would hide one half of everything, which one only rounding knows.
+pub(crate) fn is_edge_on(corners: &[DVec3; 3], error: f64) -> bool {
+    let [a, b, c] = *corners;
+    let across = (b - a).cross(c - a);
+    let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let near = error + 8.0 * f64::EPSILON * reach;
+    let distance = a.dot(across);
+    // Also where something is not a number.
+    !(distance * distance > near * near * across.length_squared())
+}
+
 impl Part {
     fn new(corners: Vec<DVec3>, triangles: &[[u32; 3]]) -> Self {
         let at = |triangle: &[u32; 3]| triangle.map(|i| corners[i as usize]);

@@ -50,14 +50,23 @@ pub(crate) fn canyon() -> Geometry {
 }
 
 /// Whether a half-line meets a triangle: 1 or −1 clearly, 0 within `unsure` (weights, and share of the length) of
-/// either answer.
-pub(crate) fn meets(geometry: &Geometry, origin: DVec3, direction: DVec3, least_height: f64, unsure: f64) -> i32 {
+/// either answer. Triangles whose plane is within `error` \[m\] of the origin are not met.
+pub(crate) fn meets(
+    geometry: &Geometry,
+    (origin, error): (DVec3, f64),
+    direction: DVec3,
+    least_height: f64,
+    unsure: f64,
+) -> i32 {
     let mut best = -1;
     for (i, instance) in geometry.instances.iter().enumerate() {
         for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
             let triangle = geometry.triangle(i as u32, t as u32);
             let Some(at) = triangle.meet(origin, direction) else { continue };
             let [a, b, c] = triangle.0;
+            if (origin - b).dot(triangle.cross().normalize_or_zero()).abs() <= error {
+                continue;
+            }
             let met = a + (b - a) * at.x + (c - a) * at.y;
             let ahead = (met - origin).dot(direction) / (a - origin).length().max(b.distance(a));
             let above = (met.y - least_height) / met.distance(origin).max(1.0);
@@ -68,7 +77,8 @@ pub(crate) fn meets(geometry: &Geometry, origin: DVec3, direction: DVec3, least_
     best
 }
 
-/// Looks at every triangle; nothing passes.
+/// Looks at every triangle; nothing passes. What is met within a micrometre is what the ray leaves: a face that the
+/// place lies on, though it is not its own.
 pub(crate) struct Plain<'a>(pub(crate) &'a Geometry);
 
 impl Occlude for Plain<'_> {
@@ -83,7 +93,7 @@ impl Occlude for Plain<'_> {
                     let distance = (met - origin).dot(direction);
                     at.min_element() >= 0.0
                         && at.element_sum() <= 1.0
-                        && distance > 0.0
+                        && distance > 1e-6
                         && distance < f64::from(segment.length)
                 })
             })
