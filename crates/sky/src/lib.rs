@@ -1,7 +1,8 @@
 //! Sun and sky as light sources.
 //!
 //! **Answers.** How bright is the sky, and of what colour, in a direction ([`Sky`])? What arrives from the sun's disc
-//! ([`Sun`]) and from the sky all around ([`Dome`]), as [`light::Illuminate`]; what a clear atmosphere leaves of the
+//! ([`Sun`]) and from the sky all around, as [`light::Illuminate`]: by rays ([`Dome`]), by the thesis' receiving cuboid ([`CuboidSky`]) or by the band sources
+//! that this replaces ([`BandSky`]); what a clear atmosphere leaves of the
 //! direct beam ([`atmosphere`]); how bright the sky is by the sun's altitude ([`diffuse_illuminance`]). Skies are
 //! chosen by name ([`Model`]): light scattered by a round atmosphere of molecules, aerosol and ozone ([`AirSky`]; the thesis'
 //! own single scattering among them), or a distribution of luminance ([`Distribution`]: uniform, overcast, the
@@ -17,7 +18,8 @@
 //! borrowed from clear air and D65. Perez' model has steps between its classes. Light from below the horizon ignores
 //! shadows on the ground. A place that sees little of the sky (deep under a roof, in a slit) is noisy: directions are
 //! chosen by what an open place would receive, not by what is open. Edges of things below the size of a share of
-//! light (1/samples) are noise too.
+//! light (1/samples) are noise too. The cuboid and the bands have no noise, but see things by elements and by lines: what
+//! falls between is not there; and they see what is in the geometry and in hulls of bodies, not what an occluder knows besides.
 //!
 //! ```
 //! use glam::Vec3;
@@ -71,7 +73,8 @@ pub use air::Air;
 pub use air_sky::AirSky;
 pub use bands::{BANDS, BandSky};
 pub use cuboid::{
-    Coverage, CuboidSky, Division, Drawing, ELEMENTS, Element, Face, Layout, Optimum, Rasterise, Things, Viewpoint,
+    Coverage, CuboidSky, Division, Drawing, ELEMENTS, Element, Face, Layout, Optimum, Rasterise, Things,
+    Viewpoint,
 };
 pub use daylight::diffuse_illuminance;
 pub use distribution::{Distribution, Gradation};

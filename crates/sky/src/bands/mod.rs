@@ -42,7 +42,9 @@ const TABLES: usize = 64;
 /// every 1.5° along the half circle. Its seed does not matter. Boxes of things that no middle of a band meets are passed over; hidden
 /// things are not: the time grows with all that is on any half circle.
 ///
-/// *Where it is wrong.* What lies between two half circles is not seen, and what is on one counts for the whole band. BAND_FIGURES
+/// *Where it is wrong.* What lies between two half circles is not seen, and what is on one counts for the whole band.
+/// Among 400 houses 10, 20, 40 and 80 leave 0.9, 0.34, 0.13 and 0.05 % of what an open lawn receives under an overcast sky (the bench
+/// `cuboid`), in four and more times the time of a cuboid that leaves as much, and in hundreds of times among 100 000.
 pub struct BandSky {
     around: Surround,
     count: usize,

@@ -93,7 +93,8 @@ fn cut(polygon: &[DVec3], middle: DVec3) -> Option<[f64; 2]> {
             continue;
         }
         // From the same end in both faces that share the edge.
-        let (low, high, down, up) = if before < after { (p, q, before, after) } else { (q, p, after, before) };
+        let (low, high, down, up) =
+            if before < after { (p, q, before, after) } else { (q, p, after, before) };
         let met = low + (high - low) * (-down / (up - down));
         ends[count] = [met.x, met.dot(middle)];
         count += 1;

@@ -113,8 +113,7 @@ impl Layout {
                 count: [divided(i), divided(j)],
             }
         };
-        let faces =
-            [face(2, 1.0), face(0, 1.0), face(0, -1.0), face(1, 1.0), face(1, -1.0), face(2, -1.0)];
+        let faces = [face(2, 1.0), face(0, 1.0), face(0, -1.0), face(1, 1.0), face(1, -1.0), face(2, -1.0)];
         Self { faces, frame_from_world: frame(toward) }
     }
 
@@ -179,8 +178,7 @@ mod tests {
         assert_eq!(layout.faces()[5].count, [35, 35]);
         assert!(layout.faces()[1..5].iter().all(|face| face.count[0] * face.count[1] == 35 * 46));
         // None lies across the horizon, and those above it are half of all that there is.
-        let above: f64 =
-            layout.elements().filter(|e| e.direction.y > HORIZON).map(|e| e.solid_angle).sum();
+        let above: f64 = layout.elements().filter(|e| e.direction.y > HORIZON).map(|e| e.solid_angle).sum();
         assert!((above / std::f64::consts::TAU - 1.0).abs() < 1e-12, "{above}");
     }
 
@@ -201,7 +199,9 @@ mod tests {
 
     #[test]
     fn the_frame_is_a_rotation_with_its_top_where_asked() {
-        for toward in [Vec3::Y, Vec3::NEG_Z, Vec3::new(0.6, 0.64, -0.48), Vec3::new(1e-4, 1.0, 0.0), Vec3::ZERO] {
+        for toward in
+            [Vec3::Y, Vec3::NEG_Z, Vec3::new(0.6, 0.64, -0.48), Vec3::new(1e-4, 1.0, 0.0), Vec3::ZERO]
+        {
             let frame = frame(toward);
             assert!((frame.determinant() - 1.0).abs() < 1e-12);
             let top = frame * toward.as_dvec3().try_normalize().unwrap_or(DVec3::Y);

@@ -29,9 +29,12 @@ pub const ELEMENTS: u32 = 40;
 /// How finely a [`CuboidSky`] is divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Division {
-    /// Elements across the top of the cuboid, n ≥ 1. ELEMENTS_FIGURES
+    /// Elements across the top of the cuboid, n ≥ 1. Among 400 houses n = 10, 20, 40 and 80 leave, root mean square over
+    /// places under an overcast sky, 1.3, 0.6, 0.27 and 0.12 % of what an open lawn receives, a little less under a clear sky; the time grows
+    /// nearly in proportion. The bench `cuboid` lists more.
     pub elements: u32,
-    /// Parts k ≥ 1 across an element of which each is drawn by itself: k² bits an element. 1 = the thesis' own.
+    /// Parts k ≥ 1 across an element of which each is drawn by itself: k² bits an element. 1 = the thesis' own. n with k × k parts
+    /// leaves what k n leaves and takes about as long, but asks the sky less and needs less memory (200 bytes an element).
     pub parts: u32,
 }
 
@@ -115,9 +118,11 @@ impl CuboidSky {
         let parts = parts.max(1) as usize;
         let sums = Sums::new(&layout, &around);
         Self {
-            known: std::array::from_fn(|index| known(&layout.faces()[index], parts, |[column, row]| {
-                sums.run(index, row, column, column + 1) == [DVec3::ZERO; BANDS]
-            })),
+            known: std::array::from_fn(|index| {
+                known(&layout.faces()[index], parts, |[column, row]| {
+                    sums.run(index, row, column, column + 1) == [DVec3::ZERO; BANDS]
+                })
+            }),
             around,
             layout,
             sums,
@@ -167,8 +172,7 @@ impl CuboidSky {
         for (index, face) in self.layout.faces().iter().enumerate() {
             for row in 0..face.count[1] {
                 if self.parts == 1 {
-                    open[index]
-                        .open_runs(row, |from, to| add(&self.sums.run(index, row, from, to), 1.0));
+                    open[index].open_runs(row, |from, to| add(&self.sums.run(index, row, from, to), 1.0));
                     continue;
                 }
                 for column in 0..face.count[0] {
@@ -217,7 +221,8 @@ impl CuboidSky {
                 let share = 1.0 / self.open_parts(&front[i], [column, row]) as f32;
                 let direction = world_from_frame * fine.point(part.map(|index| index as f64 + 0.5));
                 let in_front = k == 1 || self.faces_plane(face, [column, row], normal);
-                in_front.then(|| (direction.normalize().as_vec3().normalize(), on_plane(&flux, normal) * share))
+                in_front
+                    .then(|| (direction.normalize().as_vec3().normalize(), on_plane(&flux, normal) * share))
             })
         })
     }
@@ -237,9 +242,8 @@ fn known(face: &Face, parts: usize, dark: impl Fn([usize; 2]) -> bool) -> Covera
 fn hide_behind(face: &Face, bits: &mut Coverage, toward: DVec3) {
     let [columns, rows] = bits.size();
     let fine = Face { count: [columns, rows], ..*face };
-    let cosine = |column: usize, row: usize| {
-        fine.point([column as f64 + 0.5, row as f64 + 0.5]).dot(toward) - BEHIND
-    };
+    let cosine =
+        |column: usize, row: usize| fine.point([column as f64 + 0.5, row as f64 + 0.5]).dot(toward) - BEHIND;
     for row in 0..rows {
         let (first, last) = (cosine(0, row), cosine(columns - 1, row));
         match (first > 0.0, last > 0.0) {

@@ -64,9 +64,8 @@ impl Optimum {
         let toward = sky.brightest();
         let altitude = f64::from(toward.y.clamp(-1.0, 1.0)).asin().to_degrees();
         let evenness = |optimum: &Self| {
-            let luminance = |direction: glam::DVec3| {
-                f64::from(sky.radiance(direction.as_vec3().normalize()).luminance())
-            };
+            let luminance =
+                |direction: glam::DVec3| f64::from(sky.radiance(direction.as_vec3().normalize()).luminance());
             optimum.layout(toward, COARSE).evenness(luminance)
         };
         let [overcast, clear] = [Self::overcast(), Self::clear(altitude)];

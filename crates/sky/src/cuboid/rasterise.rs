@@ -108,9 +108,11 @@ impl Visit for Pen<'_> {
     fn wants(&mut self, bounds: &Bounds) -> bool {
         bounds.most(self.normal) > 0.0
             && bounds.most(self.up) > self.floor
-            && self.faces.iter().zip(&*self.bits).any(|(face, bits)| {
-                reach(face, bounds).is_some_and(|[x, y]| !bits.all_covered(x, y))
-            })
+            && self
+                .faces
+                .iter()
+                .zip(&*self.bits)
+                .any(|(face, bits)| reach(face, bounds).is_some_and(|[x, y]| !bits.all_covered(x, y)))
     }
 
     fn triangle(&mut self, corners: [DVec3; 3]) {

@@ -36,9 +36,10 @@ fn cuboid(description: &Description, geometry: &Geometry, elements: u32, parts: 
 /// Square of the elements' width over their distance, at most: the quadrature's error is a third of it (terms of second
 /// order in x and y: 1/12 of 3 for the weight towards the near edge, 1/24 each for the cosine's own curvature).
 fn width_squared(layout: &Layout) -> f32 {
-    let widths = layout.faces().iter().flat_map(|face| {
-        [0, 1].map(|k| 2.0 * face.half[k] / face.count[k] as f64 / face.distance)
-    });
+    let widths = layout
+        .faces()
+        .iter()
+        .flat_map(|face| [0, 1].map(|k| 2.0 * face.half[k] / face.count[k] as f64 / face.distance));
     widths.fold(0.0, f64::max).powi(2) as f32
 }
 

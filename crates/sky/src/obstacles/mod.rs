@@ -144,11 +144,7 @@ impl Obstacles {
 fn descend<V: Visit>(tree: &Tree, to: &DAffine3, visitor: &mut V, receive: &mut impl FnMut(u32, &mut V)) {
     // Medians halve: no tree of 2³² boxes is deeper than 33.
     let mut waiting = [(0u32, Bounds { low: DVec3::ZERO, high: DVec3::ZERO }); 40];
-    let spread = DMat3::from_cols(
-        to.matrix3.x_axis.abs(),
-        to.matrix3.y_axis.abs(),
-        to.matrix3.z_axis.abs(),
-    );
+    let spread = DMat3::from_cols(to.matrix3.x_axis.abs(), to.matrix3.y_axis.abs(), to.matrix3.z_axis.abs());
     let brought = |node: &Node| {
         let middle = to.transform_point3(0.5 * (node.bounds.low + node.bounds.high));
         let reach = spread * (0.5 * (node.bounds.high - node.bounds.low));

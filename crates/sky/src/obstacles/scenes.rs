@@ -28,7 +28,8 @@ pub(crate) fn boxes(placed: impl IntoIterator<Item = (DVec3, DVec3, f64)>) -> Ge
 /// Boxes that stand on y = 0 in a square of `width`, but for a clearing in its middle, and the ground.
 pub(crate) fn town(count: u32, width: f64, seed: u32) -> Geometry {
     let random = |i: u32, k: u32| {
-        f64::from(light::sampling::scramble(seed ^ (i * 8 + k).wrapping_mul(0x9E37_79B9))) / f64::from(u32::MAX)
+        f64::from(light::sampling::scramble(seed ^ (i * 8 + k).wrapping_mul(0x9E37_79B9)))
+            / f64::from(u32::MAX)
     };
     let house = |i: u32| {
         let [x, z] = [0, 1].map(|k| (random(i, k) - 0.5) * width);
@@ -71,7 +72,13 @@ pub(crate) fn meets(
             let ahead = (met - origin).dot(direction) / (a - origin).length().max(b.distance(a));
             let above = (met.y - least_height) / met.distance(origin).max(1.0);
             let inside = at.x.min(at.y).min(1.0 - at.x - at.y).min(ahead).min(above);
-            best = best.max(if inside > unsure { 1 } else if inside >= -unsure { 0 } else { -1 });
+            best = best.max(if inside > unsure {
+                1
+            } else if inside >= -unsure {
+                0
+            } else {
+                -1
+            });
         }
     }
     best

@@ -71,7 +71,8 @@ fn clipping_keeps_what_is_above() {
     let corners = [DVec3::new(0.0, -1.0, 0.0), DVec3::new(4.0, 3.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
     let area = |floor: f64| {
         let (polygon, count) = above(corners, DVec3::Y, floor);
-        let fan = (2..count).map(|k| 0.5 * (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]).length());
+        let fan =
+            (2..count).map(|k| 0.5 * (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]).length());
         fan.sum::<f64>()
     };
     // Height 4 in all; what is cut off below is similar to the whole.

@@ -14,9 +14,8 @@ impl Bounds {
 
     /// Of points; never too small, even where these come out of a transformation once more with other rounding.
     pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let exact = points
-            .into_iter()
-            .fold(Self::NOTHING, |b, p| Self { low: b.low.min(p), high: b.high.max(p) });
+        let exact =
+            points.into_iter().fold(Self::NOTHING, |b, p| Self { low: b.low.min(p), high: b.high.max(p) });
         let margin = 8.0 * f64::EPSILON * exact.low.abs().max(exact.high.abs());
         Self { low: exact.low - margin, high: exact.high + margin }
     }
@@ -85,9 +84,7 @@ fn split(nodes: &mut Vec<Node>, boxes: &[Bounds], items: &mut [u32], first: usiz
     let axis = (middles.high - middles.low).max_position();
     let half = items.len() / 2;
     // Equal middles in the order of their numbers: the tree is the same wherever it is built.
-    items.select_nth_unstable_by(half, |&a, &b| {
-        middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(&b))
-    });
+    items.select_nth_unstable_by(half, |&a, &b| middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(&b)));
     let (left, right) = items.split_at_mut(half);
     split(nodes, boxes, left, first, leaf);
     (nodes[node].first, nodes[node].count) = (nodes.len() as u32, 0);

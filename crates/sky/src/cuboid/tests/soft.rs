@@ -24,7 +24,8 @@ fn veiled() -> Geometry {
     let solid = geometry.meshes[0].clone();
     geometry.meshes[0].opacity = Some(Arc::new(Opacity { texture: None, factor: 0.5, cutoff: None }));
     geometry.meshes.push(solid);
-    let beyond = DAffine3::from_translation(DVec3::new(52.0, 0.0, 0.0)) * DAffine3::from_scale(DVec3::splat(100.0));
+    let beyond =
+        DAffine3::from_translation(DVec3::new(52.0, 0.0, 0.0)) * DAffine3::from_scale(DVec3::splat(100.0));
     geometry.instances[1] = Instance { mesh: 1, world_from_mesh: beyond };
     geometry
 }
