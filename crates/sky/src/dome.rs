@@ -1,12 +1,13 @@
 //! The sky as a light source, with the ground that lies under it.
 
-use std::f32::consts::{FRAC_1_PI, PI};
+use std::f32::consts::FRAC_1_PI;
 use std::sync::Arc;
 
 use glam::Vec3;
 use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use crate::Sky;
+use crate::ground::Surround;
 use crate::open_sky::OpenSky;
 use crate::sampling::{lattice, shift, transmit};
 use crate::sky_cells::SkyCells;
@@ -82,9 +83,7 @@ impl Description {
 /// ```
 #[derive(Clone)]
 pub struct Dome {
-    sky: Arc<dyn Sky>,
-    ground: Spectrum,
-    ground_height: f32,
+    around: Surround,
     samples: u32,
     open: OpenSky,
     cells: SkyCells,
@@ -96,14 +95,11 @@ impl Dome {
     pub fn new(description: &Description) -> Self {
         let sky = &*description.sky;
         let open = OpenSky::new(sky);
-        let horizontal = open.horizontal();
-        let ground =
-            (horizontal + description.sun_horizontal) * (description.albedo.clamp(0.0, 1.0) * FRAC_1_PI);
+        let around = Surround::new(description, &open);
+        let mean = open.horizontal().luminance() * FRAC_1_PI;
         Self {
-            cells: SkyCells::new(sky, horizontal.luminance() * FRAC_1_PI, ground.luminance()),
-            sky: Arc::clone(&description.sky),
-            ground,
-            ground_height: description.ground_height.unwrap_or(f32::NEG_INFINITY),
+            cells: SkyCells::new(sky, mean, around.ground.luminance()),
+            around,
             samples: description.samples.max(1),
             open,
         }
@@ -111,29 +107,17 @@ impl Dome {
 
     /// Radiance at the zenith \[W m⁻² sr⁻¹ nm⁻¹\].
     pub fn zenith_radiance(&self) -> Spectrum {
-        self.sky.radiance(Vec3::Y)
+        self.around.sky.radiance(Vec3::Y)
     }
 
     /// Radiance of the ground \[W m⁻² sr⁻¹ nm⁻¹\].
     pub fn ground_radiance(&self) -> Spectrum {
-        self.ground
+        self.around.ground
     }
 
     /// Irradiance of sky and ground on the plane of unit `normal` with nothing in the way \[W m⁻² nm⁻¹\].
     pub fn open_irradiance(&self, normal: Vec3) -> Spectrum {
-        self.open.on_plane(normal) + self.ground_irradiance(normal)
-    }
-
-    /// The ground's share of it: π L_g (1 − cos tilt)/2.
-    fn ground_irradiance(&self, normal: Vec3) -> Spectrum {
-        self.ground * (PI * (0.5 - 0.5 * normal.y).clamp(0.0, 1.0))
-    }
-
-    /// The ray from `place` to where light comes from: the sky, or the ground.
-    fn ray(&self, place: &Place, direction: Vec3) -> Ray {
-        let fall = place.position.y - self.ground_height;
-        let length = if direction.y < 0.0 && fall >= 0.0 { fall / -direction.y } else { f32::INFINITY };
-        place.leave(direction, length)
+        self.open.on_plane(normal) + self.around.ground_irradiance(normal)
     }
 
     /// Directions around `place` where light comes from: the sky's (0) and the ground's (1), each with what it
@@ -145,7 +129,7 @@ impl Dome {
             let (direction, part, per_density) = facing.choose(lattice(i, self.samples, offset))?;
             let cosine = direction.dot(normal);
             (cosine > 0.0).then(|| {
-                let radiance = if part == 0 { self.sky.radiance(direction) } else { Spectrum::ONE };
+                let radiance = if part == 0 { self.around.sky.radiance(direction) } else { Spectrum::ONE };
                 (direction, part, radiance * (cosine * per_density))
             })
         })
@@ -155,7 +139,7 @@ impl Dome {
     fn visible(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
         let rays = self
             .directions(place)
-            .map(|(direction, part, weight)| (self.ray(place, direction), (part, weight)));
+            .map(|(direction, part, weight)| (self.around.ray(place, direction), (part, weight)));
         let (mut through, mut open) = ([Spectrum::ZERO; 2], [Spectrum::ZERO; 2]);
         transmit(occlude, rays, |(part, weight), transmittance| {
             through[part] += transmittance * weight;
@@ -176,18 +160,18 @@ impl Dome {
 impl Illuminate for Dome {
     fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival)) {
         let from_sky = self.open.on_plane(place.normal);
-        if from_sky.is_zero() && self.ground.is_zero() {
+        if from_sky.is_zero() && self.around.ground.is_zero() {
             return;
         }
         let [sky, ground] = self.visible(place, occlude);
-        let irradiance = from_sky * sky + self.ground_irradiance(place.normal) * ground;
+        let irradiance = from_sky * sky + self.around.ground_irradiance(place.normal) * ground;
         if !irradiance.is_zero() {
             receive(Arrival::Field { irradiance });
         }
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {
-        if ray.direction.y < 0.0 { self.ground } else { self.sky.radiance(ray.direction) }
+        self.around.radiance(ray.direction)
     }
 }
 

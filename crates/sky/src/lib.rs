@@ -1,23 +1,25 @@
 //! Sun and sky as light sources.
 //!
-//! **Answers.** How bright is the sky, and of what colour, in a direction ([`Sky`])? What arrives from the
-//! sun's disc ([`Sun`]) and from the sky all around ([`Dome`]), as [`light::Illuminate`]; what a clear
-//! atmosphere leaves of the direct beam ([`atmosphere`]); how bright the sky is by the sun's altitude
-//! ([`diffuse_illuminance`]). Skies are chosen by name ([`Model`]): light scattered by a round atmosphere of
-//! molecules, aerosol and ozone ([`AirSky`]; the thesis' own single scattering among them), or a distribution
-//! of luminance ([`Distribution`]: uniform, overcast, the CIE's of 1973, the fifteen of ISO 15469, Perez'
-//! all-weather sky, measured ones) with a colour ([`Luminous`]); any of them may be scaled ([`Scale`]).
+//! **Answers.** How bright is the sky, and of what colour, in a direction ([`Sky`])? What arrives from the sun's disc
+//! ([`Sun`]) and from the sky all around, as [`light::Illuminate`]: by rays ([`Dome`]), by the thesis' receiving cuboid ([`CuboidSky`]) or by the band sources
+//! that this replaces ([`BandSky`]); what a clear atmosphere leaves of the
+//! direct beam ([`atmosphere`]); how bright the sky is by the sun's altitude ([`diffuse_illuminance`]). Skies are
+//! chosen by name ([`Model`]): light scattered by a round atmosphere of molecules, aerosol and ozone ([`AirSky`]; the thesis'
+//! own single scattering among them), or a distribution of luminance ([`Distribution`]: uniform, overcast, the
+//! CIE's of 1973, the fifteen of ISO 15469, Perez' all-weather sky, measured ones) with a colour ([`Luminous`]); any of
+//! them may be scaled ([`Scale`]).
 //!
 //! **Leaves out.** Where the sun stands at a date and place; clouds with a shape; the sun's darker limb;
 //! refraction; water vapour and oxygen; polarisation; moon and stars.
 //!
-//! **Known to be wrong.** The clear air's diffuse illuminance lies within 15 % of the IES' medians from 5° up,
-//! at 5° 15 % below, which takes air at the clean end of what occurs; below 5° the medians are higher still (by
-//! a third at 2°). By the second scattering on, phase functions end with their second Legendre polynomial.
-//! Colours of standard skies are borrowed from clear air and D65. Perez' model has steps between its classes.
-//! Light from below the horizon ignores shadows on the ground. A place that sees little of the sky (deep under
-//! a roof, in a slit) is noisy: directions are chosen by what an open place would receive, not by what is open.
-//! Edges of things below the size of a share of light (1/samples) are noise too.
+//! **Known to be wrong.** The clear air's diffuse illuminance lies within 15 % of the IES' medians from 5° up, at 5° 15 % below, which
+//! takes air at the clean end of what occurs; below 5° the medians are higher still (by a third at 2°). By the
+//! second scattering on, phase functions end with their second Legendre polynomial. Colours of standard skies are
+//! borrowed from clear air and D65. Perez' model has steps between its classes. Light from below the horizon ignores
+//! shadows on the ground. A place that sees little of the sky (deep under a roof, in a slit) is noisy: directions are
+//! chosen by what an open place would receive, not by what is open. Edges of things below the size of a share of
+//! light (1/samples) are noise too. The cuboid and the bands have no noise, but see things by elements and by lines: what
+//! falls between is not there; and they see what is in the geometry and in hulls of bodies, not what an occluder knows besides.
 //!
 //! ```
 //! use glam::Vec3;
@@ -40,15 +42,20 @@
 mod air;
 mod air_sky;
 pub mod atmosphere;
+mod bands;
 pub mod bouguer;
+mod cuboid;
 mod daylight;
 mod distribution;
 mod dome;
 mod gauss;
 mod general_sky;
+mod ground;
+mod lru;
 mod luminous;
 mod measured;
 mod model;
+mod obstacles;
 mod open_sky;
 mod orders;
 mod path;
@@ -64,6 +71,11 @@ mod sun;
 
 pub use air::Air;
 pub use air_sky::AirSky;
+pub use bands::{BANDS, BandSky};
+pub use cuboid::{
+    Coverage, CuboidSky, Division, Drawing, ELEMENTS, Element, Face, Layout, Optimum, Rasterise, Things,
+    Viewpoint,
+};
 pub use daylight::diffuse_illuminance;
 pub use distribution::{Distribution, Gradation};
 pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};

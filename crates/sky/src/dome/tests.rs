@@ -1,3 +1,5 @@
+use std::f32::consts::PI;
+
 use light::Vacuum;
 use proptest::prelude::*;
 
