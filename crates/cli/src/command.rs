@@ -103,6 +103,8 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
         seconds.time("write", || write(args, targets, &outputs, &pictures, &scene, &plan, &monitor))?;
     let luminance = &pictures[0].luminance;
     let mean = luminance.iter().map(|&l| f64::from(l)).sum::<f64>() / luminance.len().max(1) as f64;
+    let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
+    let warnings = of_scene.chain(plan.shadows.warning()).collect();
     let summary = Summary {
         plan,
         site,
@@ -111,7 +113,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
         peak_memory_mib: report::peak_memory_mib(),
         luminance: [mean as f32, luminance.iter().copied().fold(0.0, f32::max)],
         exposure,
-        warnings: scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what)).collect(),
+        warnings,
         written: outputs,
     };
     if json {

@@ -142,6 +142,18 @@ pub const KNOBS: &[Knob] = &[
         doc: "whether that ground's light passes the scene's own ground (one bounce, as if nothing shaded the ground) or is hidden by it",
     },
     Knob {
+        name: "body.samples",
+        domain: Domain::Integer(1, 4096),
+        presets: ["4", "16", "64"],
+        doc: "places at which a curved, mirroring or clear [[solid]] is looked at in a pixel, where a fourth of them do not look alike",
+    },
+    Knob {
+        name: "body.tolerance",
+        domain: Domain::Number(0.0, 1.0),
+        presets: ["0.05", "0.03", "0"],
+        doc: "places look alike that differ by no more than this share of their radiance; 0 looks at all of them",
+    },
+    Knob {
         name: "ray-depth",
         domain: Domain::Integer(0, 64),
         presets: ["3", "5", "12"],

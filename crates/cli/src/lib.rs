@@ -19,6 +19,7 @@ pub mod pipeline;
 pub mod plan;
 mod progress;
 pub mod report;
+pub mod shadows;
 
 pub use command::run;
 pub use error::Error;

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::DVec2;
 use light::{
-    Arrival, Film, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, PointSource, Ray, See,
-    Shade, Spectrum, Surroundings, Vacuum, View,
+    Arrival, Film, Hit, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, PointSource,
+    Projection, Ray, See, Shade, Spectrum, Surroundings, Vacuum, View,
 };
 use rayon::prelude::*;
 
@@ -36,6 +36,8 @@ pub struct Limits {
     pub depth: u8,
     /// Share in the eye's radiance below which a ray is not followed.
     pub share: f32,
+    /// Samples of one thing look alike that differ by no more than this share of their radiance.
+    pub alike: f32,
 }
 
 /// The stages of one scene and view. Knows no chapter: only the questions.
@@ -133,10 +135,12 @@ impl Pipeline {
         self.see.see(rows, columns.clone(), &mut |row, pieces| {
             monitor.pieces.fetch_add(pieces.len() as u64, Ordering::Relaxed);
             let start = (row - first) as usize * width * lit_by.len();
+            let mut looks = Looks::default();
             for (layer, (_, sources)) in lit_by.iter().enumerate() {
-                let around = Around { pipeline: self, sources, known: Known::default() };
+                let around = Around { pipeline: self, sources, known: Known::default(), face: [u32::MAX; 2] };
                 let line = &mut pixels[start + layer * width..][..width];
-                self.shade_row(row, columns.start, pieces, &around, line, monitor);
+                looks.rewind();
+                self.shade_row((row, columns.start), pieces, &around, &mut looks, line, monitor);
             }
             if lit_by.len() > 1 {
                 separate_emission(&mut pixels[start..][..width * lit_by.len()], width);
@@ -146,23 +150,29 @@ impl Pipeline {
 
     fn shade_row(
         &self,
-        row: u32,
-        first: u32,
+        (row, first): (u32, u32),
         pieces: &[Piece],
         around: &Around,
+        looks: &mut Looks,
         line: &mut [Spectrum],
         monitor: &Monitor,
     ) {
         let mut covered = vec![0.0f32; line.len()];
-        for piece in pieces {
+        let mut rest = pieces;
+        while let Some(piece) = rest.first() {
             // A row may take long at the highest settings, and Ctrl-C should not.
             if monitor.interrupted.load(Ordering::Relaxed) {
                 return;
             }
+            let (group, others) = rest.split_at(usize::from(piece.samples).clamp(1, rest.len()));
+            rest = others;
             let column = (piece.column - first) as usize;
-            let around = Around { known: piece.known, ..*around };
-            line[column] += around.leaves(&piece.hit) * piece.share;
-            covered[column] += piece.share;
+            let radiance = |piece: &Piece| {
+                let around = Around { known: piece.known, ..*around };
+                around.leaves(&self.seen(&piece.hit)) * piece.share
+            };
+            line[column] += looks.sum(group, self.limits.alike, radiance);
+            covered[column] += group.iter().map(|piece| piece.share).sum::<f32>();
         }
         for (column, (pixel, covered)) in line.iter_mut().zip(covered).enumerate() {
             // Shares are sums of f32 areas: what is missing by rounding alone is no background.
@@ -172,6 +182,15 @@ impl Pipeline {
                 *pixel += around.background(&self.view.ray(at), Path::EYE) * open;
             }
         }
+    }
+
+    /// A hit as the eye sees it: its bundle comes from a point in a perspective, and spreads on its way.
+    fn seen(&self, hit: &Hit) -> Hit {
+        let spread = match self.view.projection {
+            Projection::Perspective { .. } if hit.distance > 0.0 => hit.width / hit.distance,
+            _ => 0.0,
+        };
+        Hit { path: Path { spread, ..Path::EYE }, ..*hit }
     }
 
     /// Looks at the whole picture without shading it: the share of its pixels that need a ray to see what shows
@@ -193,6 +212,79 @@ impl Pipeline {
     }
 }
 
+/// How many samples of each group of a row are looked at: decided once, so that all layers look at the same ones and
+/// add up to the picture.
+#[derive(Default)]
+struct Looks {
+    decided: Vec<usize>,
+    next: usize,
+}
+
+/// Samples that are looked at in any case: a fourth of them, and no fewer than this.
+const FIRST: usize = 4;
+
+impl Looks {
+    /// Back to the first group.
+    fn rewind(&mut self) {
+        self.next = 0;
+    }
+
+    /// Σ share · radiance of a group: where its first samples are alike, they stand for the others. `radiance` is
+    /// that of a piece times its share.
+    fn sum(&mut self, group: &[Piece], alike: f32, radiance: impl Fn(&Piece) -> Spectrum) -> Spectrum {
+        let [only] = group else { return self.sum_of_many(group, alike, radiance) };
+        radiance(only)
+    }
+
+    fn sum_of_many(
+        &mut self,
+        group: &[Piece],
+        alike: f32,
+        radiance: impl Fn(&Piece) -> Spectrum,
+    ) -> Spectrum {
+        let few = (group.len() / 4).max(FIRST).min(group.len());
+        let decided = self.decided.get(self.next).copied();
+        self.next += 1;
+        let (mut sum, mut share) = (Spectrum::ZERO, 0.0);
+        let mut spread = Spread::default();
+        let mut count = 0;
+        for piece in &group[..decided.unwrap_or(group.len())] {
+            if count == few && decided.is_none() && spread.is_within(alike) {
+                break;
+            }
+            let part = radiance(piece);
+            spread.add(part * piece.share.max(f32::MIN_POSITIVE).recip());
+            sum += part;
+            share += piece.share;
+            count += 1;
+        }
+        if decided.is_none() {
+            self.decided.push(count);
+        }
+        let all: f32 = group.iter().map(|piece| piece.share).sum();
+        if count < group.len() && share > 0.0 { sum * (all / share) } else { sum }
+    }
+}
+
+/// The least and the largest of some spectra, band by band.
+#[derive(Default)]
+struct Spread(Option<[Spectrum; 2]>);
+
+impl Spread {
+    fn add(&mut self, spectrum: Spectrum) {
+        let [least, most] = self.0.unwrap_or([spectrum; 2]);
+        let each = |pick: fn(f32, f32) -> f32, a: Spectrum| {
+            Spectrum(std::array::from_fn(|band| pick(a[band], spectrum[band])))
+        };
+        self.0 = Some([each(f32::min, least), each(f32::max, most)]);
+    }
+
+    /// Whether no band differs by more than a share of the largest; never for a share of 0.
+    fn is_within(&self, share: f32) -> bool {
+        share > 0.0 && self.0.is_none_or(|[least, most]| (most - least).max() <= share * most.max())
+    }
+}
+
 /// The pipeline as one shader sees it: all sources, or those of one layer.
 #[derive(Clone, Copy)]
 struct Around<'a> {
@@ -200,6 +292,8 @@ struct Around<'a> {
     sources: &'a [usize],
     /// Of the hit that is being shaded; nothing is known of what its further rays meet.
     known: Known,
+    /// Instance and triangle of that hit.
+    face: [u32; 2],
 }
 
 impl Around<'_> {
@@ -209,16 +303,17 @@ impl Around<'_> {
             let source = &self.pipeline.sources[i].light;
             let bit = if i < 64 { 1u64 << i } else { 0 };
             if self.known.lit & bit != 0 {
-                source.arrivals(place, &Vacuum, receive);
+                source.arrivals_on(self.face, place, &Vacuum, receive);
             } else if self.known.dark & bit == 0 {
-                source.arrivals(place, &*self.pipeline.occlude, receive);
+                source.arrivals_on(self.face, place, &*self.pipeline.occlude, receive);
             }
         }
     }
 
     fn leaves(&self, hit: &light::Hit) -> Spectrum {
+        let around = Self { face: [hit.instance, hit.triangle], ..*self };
         match self.pipeline.shade.get(hit.material as usize) {
-            Some(shade) => shade.radiance(hit, self),
+            Some(shade) => shade.radiance(hit, &around),
             None => Spectrum::ZERO,
         }
     }
@@ -248,10 +343,7 @@ impl Surroundings for Around<'_> {
             return Spectrum::ZERO;
         }
         match self.pipeline.nearest.nearest(ray) {
-            Some(mut hit) => {
-                hit.path = path;
-                Around { known: Known::default(), ..*self }.leaves(&hit)
-            }
+            Some(hit) => Around { known: Known::default(), ..*self }.leaves(&hit.on(path)),
             None => self.background(ray, path),
         }
     }

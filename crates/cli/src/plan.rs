@@ -7,6 +7,7 @@ use scene::{Camera, Scene};
 use crate::assemble::mirrors;
 use crate::knobs::{Preset, Settings};
 use crate::pipeline::Region;
+use crate::shadows::{Rule, Shadows};
 use crate::{Error, args, assemble};
 
 /// Most pixels of all layers together: 2²⁷ spectra are 4 GiB, and developing them takes as much again.
@@ -33,6 +34,8 @@ pub struct Plan {
     pub contents: Contents,
     /// Share of the pixels that need a ray to see a curved solid, where that has been counted.
     pub share_of_rays: Option<f64>,
+    /// How shadows are found.
+    pub shadows: Shadows,
     /// Which stages run, in the order light takes them, and which do not.
     pub stages: Vec<Stage>,
     /// Every knob.
@@ -87,6 +90,8 @@ impl Plan {
         let camera = &scene.cameras[eye];
         let (width, height) = size(camera, args.size);
         let contents = Contents::of(scene);
+        let sources = assemble::outline(scene, &settings);
+        let shadows = Shadows::decide(&settings, contents.triangles, sources);
         Ok(Self {
             eye,
             camera: camera.name.clone(),
@@ -95,7 +100,8 @@ impl Plan {
             region: region(args.region, width, height)?,
             preset: args.preset,
             share_of_rays: None,
-            stages: stages(scene, &settings, contents),
+            stages: stages(scene, &settings, contents, &shadows),
+            shadows,
             contents,
             settings,
         })
@@ -195,7 +201,7 @@ fn transparent(scene: &Scene) -> usize {
     scene.materials.iter().filter(|material| material.medium().is_some()).count()
 }
 
-fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> {
+fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shadows) -> Vec<Stage> {
     let stage = |question, answer: &str, why: String| Stage { question, answer: answer.to_owned(), why };
     let see = match settings.choice("visibility") {
         "rays" => stage("see", "rays", format!("visibility = rays, {} a pixel", settings.choice("samples"))),
@@ -237,15 +243,11 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents) -> Vec<Stage> 
         ),
     };
     let lamps = lamps(scene, settings);
-    let lit = !(sun.answer.is_empty() && sky.answer.is_empty() && lamps.answer.is_empty());
-    let occlude = match (settings.choice("shadows"), lit) {
-        (_, false) => stage("occlude", "", "no shadows: there is no light".to_owned()),
-        ("off", _) => stage("occlude", "", "no shadows: shadows = off".to_owned()),
-        (how, _) => stage(
-            "occlude",
-            &format!("{how} ({})", settings.choice("accelerate")),
-            "something is lit".to_owned(),
-        ),
+    let faces = settings.choice("accelerate");
+    let occlude = match shadows.rule {
+        Rule::Off => stage("occlude", "", format!("no shadows: {shadows}")),
+        Rule::Rays => stage("occlude", &format!("rays ({faces})"), shadows.to_string()),
+        Rule::Volumes => stage("occlude", &format!("volumes ({faces})"), shadows.to_string()),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
     for (what, chapter) in [("water", "no [[water]]"), ("trees", "no [[tree]]")] {

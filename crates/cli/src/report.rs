@@ -37,7 +37,7 @@ pub struct Summary {
     pub luminance: [f32; 2],
     /// How the PNG was exposed, in words.
     pub exposure: Option<String>,
-    /// What was repaired in the input.
+    /// What was repaired in the input, and what is less exact than one may think.
     pub warnings: Vec<String>,
     /// Files written.
     pub written: Vec<PathBuf>,

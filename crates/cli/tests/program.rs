@@ -177,6 +177,40 @@ fn plan_and_schema_are_data() {
 }
 
 #[test]
+fn the_rule_for_shadows_and_lamps_beyond_it_are_named() {
+    let folder = folder("shadow-rule");
+    let lamp = |i: u32| format!("[[light]]\nposition = [{i}, 3, 0]\nintensity = 1\n");
+    let dark = "[sky]\noff = true\n[sun]\noff = true\n[[model]]\nbox = { size = [1, 1, 1] }\n";
+    let write = |name: &str, lamps: u32| {
+        fs::write(folder.join(name), dark.to_owned() + &(0..lamps).map(lamp).collect::<String>()).unwrap();
+    };
+    write("few.toml", 2);
+    write("many.toml", 66);
+    let plan = |name: &str| text(&keikan(&folder, &["plan", name]).stdout);
+    let data = |name: &str| -> serde_json::Value {
+        serde_json::from_slice(&keikan(&folder, &["plan", name, "--json"]).stdout).unwrap()
+    };
+    let few = data("few.toml");
+    assert_eq!((&few["shadows"]["rule"], &few["shadows"]["spans_from"]), (&"volumes".into(), &0.5.into()));
+    assert_eq!(few["shadows"]["beyond"].as_array().map(Vec::len), Some(0));
+    let said = "12 triangles are at most 100000: intervals on spans of 0.5 pixels and more for light-1, light-2; rays for the rest";
+    assert!(plan("few.toml").contains(said), "{}", plan("few.toml"));
+    let many = data("many.toml");
+    assert_eq!(many["shadows"]["exact"].as_array().map(Vec::len), Some(64));
+    assert_eq!(many["shadows"]["beyond"], serde_json::json!(["light-65", "light-66"]));
+    let said = "shadows of 2 more lamps are found by rays, less sharply (light-65, light-66)";
+    assert!(plan("many.toml").contains(said), "{}", plan("many.toml"));
+    let render = |name: &str| {
+        text(&keikan(&folder, &["render", name, "--size", "8x8", "--preset", "draft", "-o", "a.png"]).stderr)
+    };
+    assert!(
+        render("many.toml")
+            .contains(&format!("warning: shadow intervals are found for the first 64 sources only: {said}"))
+    );
+    assert!(!render("few.toml").contains("warning"), "{}", render("few.toml"));
+}
+
+#[test]
 fn lux_are_a_table() {
     let folder = folder("lux");
     let csv = text(&keikan(&folder, &["lux"]).stdout);

@@ -61,15 +61,55 @@ pub struct Path {
     pub depth: u8,
     /// Largest share, over the bands, that this ray still has in the eye's radiance; within \[0, 1\].
     pub share: f32,
+    /// Width of the bundle that the ray stands for, where it begins \[m\], ≥ 0.
+    pub width: f32,
+    /// What the bundle's width grows by per metre \[rad\], ≥ 0.
+    pub spread: f32,
 }
 
 impl Path {
     /// Straight from the eye.
-    pub const EYE: Self = Self { depth: 0, share: 1.0 };
+    pub const EYE: Self = Self { depth: 0, share: 1.0, width: 0.0, spread: 0.0 };
 
-    /// The same path after one more turn that lets `share` through.
-    pub fn then(self, share: f32) -> Self {
-        Self { depth: self.depth.saturating_add(1), share: self.share * share }
+    /// The path after one more turn at `hit`, which lets `share` through and widens the bundle by `bend` for each
+    /// radian by which the normal turns across it: 2 for a mirror, |1 − n₁/n₂| for refraction.
+    ///
+    /// A bundle of width w that meets a surface of curvature κ under the cosine c spreads by `bend` κ w/√c more (c = 1
+    /// in one direction, 1/c in the other: the geometric mean), whichever way the surface is bent: as if no mirror
+    /// gathered. After Amanatides 1984.
+    pub fn then(self, share: f32, hit: &Hit, bend: f32) -> Self {
+        Self {
+            depth: self.depth.saturating_add(1),
+            share: self.share * share,
+            width: hit.width,
+            spread: (self.spread + bend * hit.turn()).min(WIDEST),
+        }
+    }
+
+    /// The bundle's width \[m\] at a distance along the ray.
+    pub fn width_at(&self, distance: f32) -> f32 {
+        self.width + self.spread * distance
+    }
+}
+
+/// Bundles spread no wider than this \[rad\]: beyond a quarter turn it means nothing any more.
+const WIDEST: f32 = 1.5;
+
+impl Hit {
+    /// Angle by which the normal turns across the bundle that this hit stands for \[rad\], at most [`WIDEST`].
+    pub fn turn(&self) -> f32 {
+        // Nothing grazes more than this: where surfaces turn away their silhouette ends the bundle.
+        let cos = self.place.normal.dot(self.toward_eye).abs().max(0.05);
+        (self.curvature * self.width / cos.sqrt()).min(WIDEST)
+    }
+
+    /// The same hit at the end of a further ray on `path`: with the bundle's width there, for textures as well.
+    #[must_use]
+    pub fn on(self, path: Path) -> Self {
+        let width = path.width_at(self.distance);
+        let metres = self.tangent.length();
+        let uv_width = if metres > 0.0 { width / metres } else { 0.0 };
+        Self { width, uv_width, path, ..self }
     }
 }
 
@@ -88,7 +128,11 @@ pub struct Hit {
     pub uv: Vec2,
     /// ∂position/∂u, the direction in which u grows on the surface \[m per unit u\]; zero without uv.
     pub tangent: Vec3,
-    /// Width of the viewing pixel on the surface, in texture coordinates; 0 = sample without filtering.
+    /// Width, across the ray, of the bundle that this hit stands for \[m\]: a pixel's, or a sample's; 0 = a line.
+    pub width: f32,
+    /// How fast `shading_normal` turns along the surface, at most \[rad/m\]; 0 = flat.
+    pub curvature: f32,
+    /// Width of the bundle on the surface, in texture coordinates; 0 = sample without filtering.
     pub uv_width: f32,
     /// Linear vertex colour, a factor on the base colour; (1,1,1) without.
     pub vertex_colour: Vec3,

@@ -15,6 +15,8 @@ pub enum Arrival {
         toward: Vec3,
         /// Irradiance on a plane that *faces* the source \[W m⁻² nm⁻¹\].
         irradiance: Spectrum,
+        /// Angular radius of the source \[rad\], by which highlights are no smaller than it; 0 = a point.
+        radius: f32,
     },
     /// From many directions, already weighed with the cosine at the place's own normal.
     Field {
@@ -27,7 +29,7 @@ impl Arrival {
     /// Irradiance on a plane of unit normal `normal` \[W m⁻² nm⁻¹\]; 0 from behind it.
     pub fn on_plane(&self, normal: Vec3) -> Spectrum {
         match *self {
-            Self::Beam { toward, irradiance } => irradiance * toward.dot(normal).max(0.0),
+            Self::Beam { toward, irradiance, .. } => irradiance * toward.dot(normal).max(0.0),
             Self::Field { irradiance } => irradiance,
         }
     }
@@ -41,6 +43,19 @@ impl Arrival {
 pub trait Illuminate: Send + Sync {
     /// Reports everything that arrives at `place`.
     fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival));
+
+    /// The same for a place on triangle \[instance, triangle\] of the geometry, where that is known: for sources that
+    /// keep by faces what they have found before.
+    fn arrivals_on(
+        &self,
+        face: [u32; 2],
+        place: &Place,
+        occlude: &dyn Occlude,
+        receive: &mut dyn FnMut(Arrival),
+    ) {
+        let _ = face;
+        self.arrivals(place, occlude, receive);
+    }
 
     /// Radiance of the source itself where `ray` leaves the scene unhindered \[W m⁻² sr⁻¹ nm⁻¹\]; 0 for
     /// sources too small to be seen.

@@ -195,6 +195,7 @@ impl Illuminate for Luminaire {
             receive(Arrival::Beam {
                 toward: segment.direction,
                 irradiance: intensity * transmittance * (1.0 / distance2),
+                radius: 0.0,
             });
         }
     }

@@ -173,6 +173,8 @@ impl Geometry {
                 mix(corners, weights, |i, weight| mesh.uvs[i].as_dvec2() * weight).as_vec2()
             },
             tangent,
+            width: pixel_width,
+            curvature: curvature(mesh, placed, corners),
             uv_width: pixel_width * uv_density,
             vertex_colour: if mesh.colours.is_empty() {
                 Vec3::ONE
@@ -228,6 +230,22 @@ fn shading_normal(
         d if d < 0.0 => -smooth,
         _ => flat,
     }
+}
+
+/// How fast the interpolated normal of a triangle turns, at most \[rad/m\]: the largest difference of two corners'
+/// normals over their distance. Placements count by their mean scale.
+fn curvature(mesh: &Mesh, placed: &Instance, corners: [usize; 3]) -> f32 {
+    if mesh.normals.is_empty() {
+        return 0.0;
+    }
+    let scale = placed.world_from_mesh.matrix3.determinant().abs().cbrt() as f32;
+    let [a, b, c] = corners;
+    let along = |(i, j): (usize, usize)| {
+        let turned = mesh.normals[i].distance(mesh.normals[j]);
+        let apart = mesh.positions[i].distance(mesh.positions[j]) * scale;
+        if turned > 0.0 && apart > 0.0 { turned / apart } else { 0.0 }
+    };
+    [(a, b), (b, c), (c, a)].into_iter().map(along).fold(0.0, f32::max)
 }
 
 /// ∂position/∂u and √(uv area per area) of a triangle; zeros without usable texture coordinates.

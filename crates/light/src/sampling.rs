@@ -30,6 +30,25 @@ pub fn lattice(i: u32, count: u32, shift: [u32; 2]) -> [f32; 2] {
     [column.wrapping_add(shift[0]), row.wrapping_add(shift[1])].map(|x| (x >> 8) as f32 / 16_777_216.0)
 }
 
+/// Point `i` of Sobol's sequence, its bits turned by `scramble`; each within \[0, 1).
+///
+/// Any first 2ᵏ points have one in each rectangle of area 2⁻ᵏ whose sides are powers of two: good for whoever may
+/// stop early. Sobol' 1967; x is van der Corput's sequence.
+///
+/// ```
+/// let first: Vec<_> = (0..4).map(|i| keikan_light::sampling::sobol(i, [0; 2])).collect();
+/// assert_eq!(first, [[0.0, 0.0], [0.5, 0.5], [0.25, 0.75], [0.75, 0.25]]);
+/// ```
+pub fn sobol(i: u32, scramble: [u32; 2]) -> [f64; 2] {
+    let (mut y, mut direction, mut left) = (0, 1u32 << 31, i);
+    while left != 0 {
+        y ^= if left & 1 == 1 { direction } else { 0 };
+        direction ^= direction >> 1;
+        left >>= 1;
+    }
+    [i.reverse_bits() ^ scramble[0], y ^ scramble[1]].map(|bits| f64::from(bits) / 4_294_967_296.0)
+}
+
 /// The point of the unit disc that belongs to a point of the unit square, areas kept.
 pub fn disc(at: [f32; 2]) -> [f32; 2] {
     let radius = at[0].sqrt();

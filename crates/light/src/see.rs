@@ -17,6 +17,10 @@ pub struct Piece {
     pub hit: Hit,
     /// What is known of the lights that reach it.
     pub known: Known,
+    /// How many pieces from this one on sample one and the same thing, which may look different at each; most often 1.
+    /// They stand together, and any of them in front are spread as evenly over it as they can be: whoever shades
+    /// them may stop where they look alike. Those after the first say 1 themselves.
+    pub samples: u16,
 }
 
 /// What is known, before shading, of which point sources reach a piece of surface. Sources have numbers

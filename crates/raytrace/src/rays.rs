@@ -110,7 +110,8 @@ impl Rays {
             let of = part.share.recip();
             let mut hit = self.hit(&part.met, part.weights * of, part.screen * of, part.depth * of, 1.0);
             hit.place.seed = scrambled(scrambled(column) ^ row);
-            pieces.push(Piece { column, share: part.share.min(1.0) as f32, hit, known: Known::default() });
+            let share = part.share.min(1.0) as f32;
+            pieces.push(Piece { column, share, hit, known: Known::default(), samples: 1 });
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::{ops::Range, sync::Arc};
 
-use light::{Known, Nearest, Piece, See, View};
+use light::{Hit, Known, Nearest, Path, Piece, See, View};
 
 use crate::rays::{position, scrambled};
 
@@ -36,15 +36,11 @@ impl Supersample {
         hit.place.seed = scrambled(scrambled(scrambled(column) ^ row) ^ index);
         // The footprint of one sample, not of the pixel.
         let width = self.view.pixel_width(f64::from(hit.distance) * ahead) as f32;
-        hit.uv_width = width * (self.samples as f32).sqrt().recip() * uv_density(&hit);
-        Some(Piece { column, share: (f64::from(self.samples).recip()) as f32, hit, known: Known::default() })
+        let path = Path { width: width * (self.samples as f32).sqrt().recip(), ..Path::EYE };
+        let hit = Hit { path: Path::EYE, ..hit.on(path) };
+        let share = f64::from(self.samples).recip() as f32;
+        Some(Piece { column, share, hit, known: Known::default(), samples: 1 })
     }
-}
-
-/// Texture coordinates per metre at a hit; 0 where there are none.
-fn uv_density(hit: &light::Hit) -> f32 {
-    let metres = hit.tangent.length();
-    if metres > 0.0 { metres.recip() } else { 0.0 }
 }
 
 impl See for Supersample {

@@ -119,7 +119,7 @@ impl Scanline {
                     self.hit(row, column, &within)
                 });
                 let known = pixel.table.known(cover.known);
-                pieces.push(Piece { column, share: cover.share as f32, hit, known });
+                pieces.push(Piece { column, share: cover.share as f32, hit, known, samples: 1 });
             }
             at_most_one(&mut pieces[first..]);
         }

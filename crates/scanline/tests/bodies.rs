@@ -61,6 +61,8 @@ impl Bodies for Balls {
             distance: distance as f32,
             uv: Vec2::ZERO,
             tangent: Vec3::ZERO,
+            width: 0.0,
+            curvature: 0.0,
             uv_width: 0.0,
             vertex_colour: Vec3::ONE,
             instance: FIRST + body,
@@ -471,13 +473,13 @@ fn what_is_known_of_the_light_on_faces_stays_known_beside_bodies() {
 }
 
 #[test]
-fn traced_bodies_are_shaded_on_every_line_and_show_as_much() {
+fn bodies_looked_at_in_many_places_show_as_much() {
     const SIZE: u32 = 24;
     let balls = Balls::new(&[(DVec3::new(0.3, -0.4, -20.0), 7.2), (DVec3::new(6.0, 5.0, -30.0), 4.0)]);
     for rule in RULES {
         let plain = localised(&Geometry::default(), flat(SIZE), knobs(rule, 4), balls.clone());
-        let traced = localised(&Geometry::default(), flat(SIZE), knobs(rule, 4), balls.clone())
-            .with_traced(vec![true]);
+        let traced =
+            localised(&Geometry::default(), flat(SIZE), knobs(rule, 4), balls.clone()).with_samples(16);
         let (plain, traced) = (picture(&plain, 0..SIZE, 0..SIZE), picture(&traced, 0..SIZE, 0..SIZE));
         totals_at_most_one(&traced, SIZE);
         for body in [FIRST, FIRST + 1] {
@@ -486,7 +488,17 @@ fn traced_bodies_are_shaded_on_every_line_and_show_as_much() {
                 assert!((a - b).abs() <= 200.0 * f64::from(f32::EPSILON), "{rule:?}: {a} {b}");
             }
         }
-        assert!(traced.len() > 3 * plain.len(), "{rule:?}: {} from {}", traced.len(), plain.len());
+        assert!(traced.len() > 12 * plain.len(), "{rule:?}: {} from {}", traced.len(), plain.len());
+        // Groups stand together: each says how many it is, and its pieces are of one pixel and body.
+        let mut rest = &traced[..];
+        while let Some((row, first)) = rest.first() {
+            let (group, others) = rest.split_at(usize::from(first.samples));
+            let one = |(r, p): &(u32, Piece)| {
+                r == row && p.column == first.column && p.hit.instance == first.hit.instance
+            };
+            assert!(group.iter().all(one) && group[1..].iter().all(|(_, p)| p.samples == 1));
+            rest = others;
+        }
         let mut inside = 0;
         for (row, piece) in &traced {
             let at = piece.hit.place.position;

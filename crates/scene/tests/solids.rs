@@ -173,7 +173,23 @@ const WRONG: &[(&str, &str)] = &[
     ("[[solid]]\nsphere = { radius = nan }", "key \"sphere.radius\": NaN is not within"),
     ("[[solid]]\nsphere = { radius = -1 }", "-1 is not within ["),
     ("[[solid]]\nsphere = { diameter = 1 }", "unknown field `diameter`, expected `radius`"),
+    (
+        "[[solid]]\ncylinder = { radius = 1, height = 0 }",
+        "[[solid]] 1, key \"cylinder.height\": 0 is not within [",
+    ),
+    ("[[solid]]\ncone = { radius = 0, height = 1 }", "[[solid]] 1, key \"cone.radius\": 0 is not within ["),
+    ("[[solid]]\nbox = { size = [1, 0, 1] }", "[[solid]] 1, key \"box.size\": 0 is not within ["),
+    (
+        "[[solid]]\nprism = { sides = 3, radius = 1, height = 0 }",
+        "[[solid]] 1, key \"prism.height\": 0 is not within [",
+    ),
+    ("[[solid]]\nfrustum = { bottom = 0, top = 1, height = 1 }", "key \"frustum.bottom\": 0 is not within"),
     ("[[solid]]\nfrustum = { bottom = 1, top = 0, height = 1 }", "key \"frustum.top\": 0 is not within"),
+    (
+        "[[solid]]\nfrustum = { bottom = 1, top = -0.5, height = 1 }",
+        "key \"frustum.top\": -0.5 is not within",
+    ),
+    ("[[solid]]\nfrustum = { bottom = 1, top = nan, height = 1 }", "key \"frustum.top\": NaN is not within"),
     ("[[solid]]\nfrustum = { bottom = 1e7, top = 1e-3, height = 1 }", "from 1e-6 to 1e6 are possible"),
     (
         "[[solid]]\nprism = { sides = 2, radius = 1, height = 1 }",
@@ -184,7 +200,16 @@ const WRONG: &[(&str, &str)] = &[
         "[[solid]]\nsphere = { radius = 1 }\nscale = [1, 0, 1]",
         "key \"scale\": [1, 0, 1] is not possible: each factor must be within",
     ),
+    (
+        "[[solid]]\nsphere = { radius = 1 }\nscale = nan",
+        "[[solid]] 1, key \"scale\": NaN is not possible: each factor must be within",
+    ),
     ("[[solid]]\nsphere = { radius = 1 }\nrotation = nan", "key \"rotation\": NaN"),
+    ("[[solid]]\nsphere = { radius = 1 }\nrotation = [0, inf, 0]", "key \"rotation\": inf"),
+    (
+        "[[solid]]\nsphere = { radius = 1 }\nposition = [0, -inf, 0]",
+        "[[solid]] 1, key \"position\": [0.0, -inf, 0.0] is not a point",
+    ),
     (
         "[[solid]]\nsphere = { radius = 1 }\nmaterial = 'x'",
         "[[solid]] 1, key \"material\": \"x\" is unknown; [[material]] tables define none",
@@ -194,6 +219,11 @@ const WRONG: &[(&str, &str)] = &[
         "line 5, column 8, [[solid]] 2, key \"name\": \"a\" is empty or taken",
     ),
     ("[[solid]]\nunion = []", "[[solid]] 1, key \"union\": has 0 names: two or more are possible"),
+    (
+        "[[solid]]\nintersection = []",
+        "[[solid]] 1, key \"intersection\": has 0 names: two or more are possible",
+    ),
+    ("[[solid]]\ndifference = []", "[[solid]] 1, key \"difference\": has 0 names: two or more are possible"),
     (
         "[[solid]]\nname = 'a'\nsphere = { radius = 1 }\n[[solid]]\ndifference = ['a']",
         "key \"difference\": has 1 names",
@@ -239,7 +269,16 @@ const WRONG: &[(&str, &str)] = &[
         "[[material]]\nname = 'a'\nattenuation_colour = 0.5\nattenuation_distance = -1",
         "key \"attenuation_distance\": -1 is not within (0, ",
     ),
+    (
+        "[[material]]\nname = 'a'\nattenuation_colour = 0.5\nattenuation_distance = nan",
+        "key \"attenuation_distance\": NaN is not within (0, ",
+    ),
     ("[[material]]\nname = 'a'\nior = 0.99", "[[material]] 1, key \"ior\": 0.99 is not within [1, 10]"),
+    ("[[material]]\nname = 'a'\nior = nan", "[[material]] 1, key \"ior\": NaN is not within [1, 10]"),
+    (
+        "[[material]]\nname = 'a'\ntransmission = inf",
+        "[[material]] 1, key \"transmission\": inf is not within [0, 1]",
+    ),
     (
         "[[model]]\nprism = { sides = 65, radius = 1, height = 1 }",
         "[[model]] 1, key \"prism.sides\": 65 is not within [3, 64]",
@@ -255,6 +294,71 @@ fn errors_name_place_and_choices() {
         };
         assert!(message.contains(expected), "{text}\n  gave     {message}\n  expected {expected}");
     }
+}
+
+/// A ball and a rod of the materials `a` and `b`, and `last`.
+fn pair(a: &str, b: &str, last: &str) -> String {
+    let table = |name, shape, material: &str| {
+        let material = if material.is_empty() { String::new() } else { format!("material = '{material}'\n") };
+        format!("[[solid]]\nname = '{name}'\n{shape}\n{material}")
+    };
+    let clear = |name, more| format!("[[material]]\nname = '{name}'\ntransmission = 1\n{more}\n");
+    format!(
+        "{}{}{}{}[[material]]\nname = 'paint'\n{}{}[[solid]]\nname = 'both'\n{last}",
+        clear("crown", "ior = 1.52\ncolour = 1\nroughness = 0"),
+        clear("frosted", "ior = 1.52\ncolour = 1\nroughness = 0.5"),
+        clear("flint", "ior = 1.62\ncolour = 1"),
+        clear(
+            "green",
+            "ior = 1.52\ncolour = 1\nattenuation_colour = [0.5, 1, 0.5]\nattenuation_distance = 1"
+        ),
+        table("ball", "sphere = { radius = 1 }", a),
+        table("rod", "cylinder = { radius = 0.5, height = 2 }", b)
+    )
+}
+
+#[test]
+fn one_body_has_one_medium() {
+    let refused = |text: &str| read(text).err().map(|error| error.to_string()).unwrap_or_default();
+    for operation in ["union", "intersection"] {
+        let set = format!("{operation} = ['ball', 'rod']");
+        for (a, b, what) in [
+            (
+                "crown",
+                "flint",
+                "is of \"flint\" (clear, ior 1.62), but the first is of \"crown\" (clear, ior 1.52)",
+            ),
+            ("crown", "green", "is of \"green\" (clear, ior 1.52), but the first is of \"crown\""),
+            ("paint", "crown", "is of \"crown\" (clear, ior 1.52), but the first is of \"paint\" (opaque)"),
+            ("crown", "", "is of the default grey (opaque), but the first is of \"crown\""),
+        ] {
+            let message = refused(&pair(a, b, &set));
+            let place = format!("[[solid]] 3, key \"{operation}.2\": ");
+            assert!(message.contains(&place) && message.contains(what), "{message}");
+            assert!(message.contains("several [[solid]] tables"), "{message}");
+        }
+        // Opaque is opaque; roughness is the surface's alone; what names no material has that of the whole.
+        for (a, b) in [("paint", ""), ("crown", "crown"), ("crown", "frosted")] {
+            assert_eq!(refused(&pair(a, b, &set)), "");
+        }
+        assert_eq!(refused(&pair("", "crown", &format!("{set}\nmaterial = 'crown'"))), "");
+    }
+}
+
+/// What is cut out leaves no medium: its materials dress faces.
+#[test]
+fn cutters_may_be_of_anything() {
+    assert!(read(&pair("crown", "paint", "difference = ['ball', 'rod']")).is_ok());
+    assert!(read(&pair("paint", "crown", "difference = ['ball', 'rod']")).is_ok());
+    let block = "[[solid]]\nname = 'block'\nbox = { size = [9, 9, 9] }\nmaterial = 'flint'\n";
+    let both = "union = ['ball', 'rod']\n";
+    let cut = format!("{both}{block}[[solid]]\ndifference = ['block', 'both']");
+    assert!(read(&pair("crown", "paint", &cut)).is_ok());
+    // But the whole is looked through.
+    let whole = format!("{both}{block}[[solid]]\ndifference = ['both', 'block']");
+    let message =
+        read(&pair("crown", "paint", &whole)).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.contains("[[solid]] 3, key \"union.2\": is of \"paint\""), "{message}");
 }
 
 /// Each level uses the one below twice: 2ⁿ shapes from n tables, and n levels.

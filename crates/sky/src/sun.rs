@@ -97,7 +97,8 @@ impl Illuminate for Sun {
         let mut through = Spectrum::ZERO;
         transmit(occlude, rays, |(), transmittance| through += transmittance);
         if !through.is_zero() {
-            receive(Arrival::Beam { toward, irradiance: self.irradiance * through * (risen / count as f32) });
+            let irradiance = self.irradiance * through * (risen / count as f32);
+            receive(Arrival::Beam { toward, irradiance, radius: sin });
         }
     }
 

@@ -34,6 +34,16 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
     sources
 }
 
+/// The name of each of [`sources`] in their order, and whether it is a point that casts sharp shadows; no sky is
+/// built for it.
+pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
+    let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some()));
+    let sky = model(scene, settings).map(|_| (SKY.to_owned(), false));
+    let points = scene.lights.iter().map(|light| (light.name.clone(), true));
+    let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
+    sun.into_iter().chain(sky).chain(points).chain(areas).collect()
+}
+
 /// A lamp with an extent.
 fn area(lamp: &scene::AreaLight, settings: &Settings) -> AreaLight {
     let shape = match lamp.shape {
@@ -107,9 +117,15 @@ pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
     Model::all().map(Model::name)
 }
 
+/// What the layer of the sky is called.
+const SKY: &str = "sky";
+
+fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
+    Model::named(plan::sky_model(scene, settings))
+}
+
 fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
-    let model = plan::sky_model(scene, settings);
-    let model = Model::named(model)?;
+    let model = model(scene, settings)?;
     // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
     let sun = scene.sun.clone().or_else(|| scene.site.sun());
     let sun = sun.as_ref();
@@ -132,12 +148,7 @@ fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
         samples: settings.integer("sky.rays"),
         ..Description::new(model.sky(&conditions))
     };
-    Some(Source {
-        name: "sky".to_owned(),
-        light: Box::new(Dome::new(&description)),
-        beam: false,
-        point: None,
-    })
+    Some(Source { name: SKY.to_owned(), light: Box::new(Dome::new(&description)), beam: false, point: None })
 }
 
 /// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground
@@ -165,4 +176,32 @@ fn ground_height(geometry: &Geometry) -> Option<f32> {
         sum >= tenth
     });
     ground.map(|(height, _)| (height + 1e-3 * (high.y - low.y)) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::knobs::Preset;
+
+    #[test]
+    fn the_outline_is_that_of_the_sources() {
+        let lamps = "[[light]]\nposition = [0, 3, 0]\nintensity = 1\n\
+            [[light]]\nposition = [0, 3, 1]\nsphere = { radius = 0.1 }\nflux = 1\n";
+        for (sky, preset) in [
+            ("[sky]\noff = true\n", Preset::Normal),
+            ("[sky]\nmodel = 'uniform'\n[sun]\naltitude = 30\nazimuth = 9\n", Preset::Draft),
+            ("[sky]\nmodel = 'clear'\n[sun]\naltitude = 30\nazimuth = 9\n", Preset::Normal),
+            ("[sky]\nmodel = 'clear'\n[sun]\naltitude = -30\nazimuth = 9\n", Preset::Normal),
+        ] {
+            let scene = scene::parse(&format!("{sky}{lamps}"), Path::new(""), Path::new("a.toml")).unwrap();
+            let settings = Settings::preset(preset);
+            let built: Vec<_> = sources(&scene, &settings)
+                .into_iter()
+                .map(|source| (source.name, source.point.is_some()))
+                .collect();
+            assert_eq!(outline(&scene, &settings), built, "{sky}");
+        }
+    }
 }

@@ -15,8 +15,9 @@ use scene::{Camera, Scene};
 use crate::Error;
 use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
+use crate::shadows::NUMBERED;
 
-pub(crate) use lights::skies;
+pub(crate) use lights::{outline, skies};
 pub(crate) use materials::mirrors;
 
 /// Builds the stages that `plan` names for `scene`.
@@ -48,14 +49,10 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
         limits: Limits {
             depth: settings.integer("ray-depth") as u8,
             share: settings.number("ray-share") as f32,
+            alike: settings.number("body.tolerance") as f32,
         },
     })
 }
-
-/// Scenes of more triangles than this have spans so short that asking for shadow intervals on all of them
-/// costs more than it is worth (1.9 times rays' time at 10⁵ and 10⁶ triangles, 0.9 times at 600): then only spans
-/// of three pixels and more are cut, and rays ask for the rest.
-const FINE: usize = 100_000;
 
 /// Who finds what the eye sees, and how many pixels have needed a ray for it.
 fn see(
@@ -76,16 +73,15 @@ fn see(
         ("rays", _) => (Box::new(Supersample::new(traced.nearest(), view, samples)), None),
         _ => {
             let mut scanline = Scanline::new(Arc::clone(&scene.geometry), view, knobs(plan));
-            if settings.choice("shadows") == "volumes" {
-                scanline = scanline.with_shadows(points(sources), Arc::clone(occlude) as Arc<dyn Occlude>);
-                if plan.contents.triangles > FINE {
-                    scanline = scanline.cut_from(3.0);
-                }
+            if let Some(least) = plan.shadows.spans_from {
+                let occlude = Arc::clone(occlude) as Arc<dyn Occlude>;
+                scanline = scanline.with_shadows(points(sources), occlude).cut_from(least);
             }
             match &traced.solids {
                 Some([solids, _]) => {
                     let bodies = Arc::clone(solids) as Arc<dyn Bodies>;
-                    let local = Arc::new(Localised::new(scanline, bodies).with_traced(solids::traced(scene)));
+                    let samples = settings.integer("body.samples");
+                    let local = Arc::new(Localised::new(scanline, bodies).with_samples(samples));
                     let count = Arc::clone(&local);
                     (Box::new(local), Some(Box::new(move || count.needed_rays())))
                 }
@@ -97,7 +93,7 @@ fn see(
 
 /// The sources that cast sharp shadows, by the numbers that the pipeline knows them by.
 fn points(sources: &[Source]) -> Vec<(u32, PointSource)> {
-    let numbered = sources.iter().take(64).enumerate();
+    let numbered = sources.iter().take(NUMBERED).enumerate();
     numbered.filter_map(|(i, source)| Some((i as u32, source.point?))).collect()
 }
 

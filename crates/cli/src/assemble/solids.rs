@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use light::{Medium, Shade};
 use raytrace::solid::{Body, Node, Plane, Shape, Solids};
-use scene::{Scene, Solid, SolidNode, SolidShape};
+use scene::{Material, Scene, Solid, SolidNode, SolidShape};
 
 use super::materials;
 use crate::Error;
@@ -18,58 +18,111 @@ pub(super) struct Dressed {
 /// The bodies of the scene, and the shaders that they need beyond those of the meshes; none without solids.
 ///
 /// A transparent material on a solid is always that of a body, never of a thin pane: solids wear shaders
-/// of their own, one for each material, after those of the meshes.
+/// of their own, one for each [`Dress`], after those of the meshes.
 pub(super) fn bodies(scene: &Scene) -> Result<Option<Dressed>, Error> {
     if scene.solids.is_empty() {
         return Ok(None);
     }
-    let offset = scene.materials.len() as u32;
-    let bodies = scene.solids.iter().map(|solid| body(scene, solid, offset)).collect();
+    let wardrobe = Wardrobe::of(scene);
+    let bodies = scene.solids.iter().map(|solid| wardrobe.body(solid)).collect();
     let first = scene.geometry.instances.len() as u32;
     let solids = Solids::new(bodies, first).map_err(|fault| Error::Content(format!("[[solid]] {fault}")))?;
-    let shaders =
-        scene.materials.iter().map(|material| materials::shade_with(material, filled(material))).collect();
+    let shader = |dress: &Dress| {
+        let material = &scene.materials[dress.material as usize];
+        materials::shade_with(material, dress.medium(&scene.materials))
+    };
+    let shaders = wardrobe.dresses.iter().map(shader).collect();
     Ok(Some(Dressed { solids, shaders }))
 }
 
-/// By the index that bodies' materials have: whether what they show is traced.
-pub(super) fn traced(scene: &Scene) -> Vec<bool> {
-    let shows = |material| materials::mirrors(material) || filled(material).is_some();
-    // The meshes' materials come first; faces are shaded once a pixel all the same.
-    std::iter::repeat_n(false, scene.materials.len()).chain(scene.materials.iter().map(shows)).collect()
+/// What a face of a body looks like: its own material, and that which says what fills the body behind it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Dress {
+    material: u32,
+    filling: u32,
 }
 
-fn body(scene: &Scene, solid: &Solid, offset: u32) -> Body {
-    let medium = scene.materials.get(outermost(&solid.node) as usize).and_then(filled).map(Arc::new);
-    Body { node: node(&solid.node, offset), medium }
-}
-
-fn filled(material: &scene::Material) -> Option<Medium> {
-    material.medium().map(|medium| Medium { thin: false, ..medium })
-}
-
-/// The material that says what fills a body of several: that of its first shape.
-fn outermost(node: &SolidNode) -> u32 {
-    match node {
-        SolidNode::Shape { material, .. } => *material,
-        SolidNode::Union(members) | SolidNode::Intersection(members) => members.first().map_or(0, outermost),
-        SolidNode::Difference(whole, _) => outermost(whole),
+impl Dress {
+    /// What light meets that passes the face: inside, what the filling says; at the face, what its own material
+    /// lets through. None where either is opaque.
+    fn medium(self, materials: &[Material]) -> Option<Medium> {
+        let inside = filled(&materials[self.filling as usize])?;
+        let face = filled(&materials[self.material as usize])?;
+        Some(Medium { index: inside.index, absorption: inside.absorption, ..face })
     }
 }
 
-fn node(node_: &SolidNode, offset: u32) -> Node {
-    let all = |members: &[SolidNode]| members.iter().map(|member| node(member, offset)).collect();
-    match node_ {
-        SolidNode::Shape { shape, world_from_solid, material } => Node::Solid {
-            shape: convex(shape),
-            world_from_solid: *world_from_solid,
-            material: material + offset,
-        },
-        SolidNode::Union(members) => Node::Union(all(members)),
-        SolidNode::Intersection(members) => Node::Intersection(all(members)),
-        SolidNode::Difference(whole, cutters) => {
-            Node::Difference(Box::new(node(whole, offset)), all(cutters))
+/// All dresses of a scene's bodies, in order, and the number of the first one's shader.
+struct Wardrobe<'s> {
+    materials: &'s [Material],
+    dresses: Vec<Dress>,
+    first: u32,
+}
+
+impl<'s> Wardrobe<'s> {
+    fn of(scene: &'s Scene) -> Self {
+        let mut dresses = Vec::new();
+        for solid in &scene.solids {
+            collect(&solid.node, filling(&solid.node), &mut dresses);
         }
+        dresses.sort_unstable();
+        dresses.dedup();
+        Self { materials: &scene.materials, dresses, first: scene.materials.len() as u32 }
+    }
+
+    fn body(&self, solid: &Solid) -> Body {
+        let filling = filling(&solid.node);
+        let medium = self.materials.get(filling as usize).and_then(filled).map(Arc::new);
+        Body { node: self.node(&solid.node, filling), medium }
+    }
+
+    fn node(&self, node: &SolidNode, filling: u32) -> Node {
+        let all = |members: &[SolidNode]| members.iter().map(|member| self.node(member, filling)).collect();
+        match node {
+            SolidNode::Shape { shape, world_from_solid, material } => Node::Solid {
+                shape: convex(shape),
+                world_from_solid: *world_from_solid,
+                material: self.shader(Dress { material: *material, filling }),
+            },
+            SolidNode::Union(members) => Node::Union(all(members)),
+            SolidNode::Intersection(members) => Node::Intersection(all(members)),
+            SolidNode::Difference(whole, cutters) => {
+                Node::Difference(Box::new(self.node(whole, filling)), all(cutters))
+            }
+        }
+    }
+
+    /// The number of a dress' shader; all dresses have been collected from the same bodies.
+    fn shader(&self, dress: Dress) -> u32 {
+        self.first + self.dresses.partition_point(|other| *other < dress) as u32
+    }
+}
+
+/// Adds what the faces of a body wear that `filling` fills.
+fn collect(node: &SolidNode, filling: u32, dresses: &mut Vec<Dress>) {
+    match node {
+        SolidNode::Shape { material, .. } => dresses.push(Dress { material: *material, filling }),
+        SolidNode::Union(members) | SolidNode::Intersection(members) => {
+            members.iter().for_each(|member| collect(member, filling, dresses));
+        }
+        SolidNode::Difference(whole, cutters) => {
+            collect(whole, filling, dresses);
+            cutters.iter().for_each(|cutter| collect(cutter, filling, dresses));
+        }
+    }
+}
+
+fn filled(material: &Material) -> Option<Medium> {
+    material.medium().map(|medium| Medium { thin: false, ..medium })
+}
+
+/// The material that says what fills a body of several: that of its first shape. Members of unions and
+/// intersections are filled alike ([`scene::load`] sees to it), and cutters fill nothing.
+fn filling(node: &SolidNode) -> u32 {
+    match node {
+        SolidNode::Shape { material, .. } => *material,
+        SolidNode::Union(members) | SolidNode::Intersection(members) => members.first().map_or(0, filling),
+        SolidNode::Difference(whole, _) => filling(whole),
     }
 }
 

@@ -133,7 +133,9 @@ impl Illuminate for AreaLight {
         });
         let irradiance = self.radiance * visible * vector.length() as f32;
         if irradiance.is_finite() && !irradiance.is_zero() {
-            receive(Arrival::Beam { toward, irradiance });
+            // As wide as a disc of its solid angle.
+            let radius = (vector.length() / std::f64::consts::PI).sqrt() as f32;
+            receive(Arrival::Beam { toward, irradiance, radius });
         }
     }
 }

@@ -8,10 +8,11 @@ use light::{
 use crate::transmit;
 
 use super::{
-    Acceleration, Crossing, Ready, Solids,
+    Acceleration, Crossing, Solids,
     csg::{Compound, Wall},
+    fan::Fan,
     member::U,
-    shadow::{Fan, MARGIN, Shadow},
+    shadow::Work,
 };
 
 impl Compound {
@@ -55,7 +56,7 @@ impl Solids {
         found
     }
 
-    fn hit_at(&self, body: u32, wall: &Wall, line: (DVec3, DVec3), ray: &Ray) -> Hit {
+    fn hit_at(&self, body: u32, wall: &Wall, line: (DVec3, DVec3), ray: &Ray, width: f32) -> Hit {
         let compound = &self.bodies[body as usize].compound;
         let crossing = compound.crossing(wall, line);
         let position = line.0 + line.1 * crossing.t;
@@ -79,6 +80,8 @@ impl Solids {
             distance: crossing.t as f32,
             uv: Vec2::ZERO,
             tangent: Vec3::ZERO,
+            width,
+            curvature: compound.members[wall.member as usize].curvature(wall.end.face, position) as f32,
             uv_width: 0.0,
             vertex_colour: Vec3::ONE,
             instance: self.first_instance + body,
@@ -104,7 +107,7 @@ impl Bodies for Solids {
         Some(self.first(body, line, after, f64::INFINITY)?.end.t)
     }
 
-    fn hit(&self, body: u32, line: (DVec3, DVec3), distance: f64, ray: &Ray, _pixel_width: f32) -> Hit {
+    fn hit(&self, body: u32, line: (DVec3, DVec3), distance: f64, ray: &Ray, pixel_width: f32) -> Hit {
         let mut nearest: Option<Wall> = None;
         if let Some(ready) = self.bodies.get(body as usize) {
             let gap = |wall: &Wall| (wall.end.t - distance).abs();
@@ -116,7 +119,7 @@ impl Bodies for Solids {
             });
         }
         match nearest {
-            Some(wall) => self.hit_at(body, &wall, line, ray),
+            Some(wall) => self.hit_at(body, &wall, line, ray, pixel_width),
             None => self.nowhere(body, line, distance, ray),
         }
     }
@@ -135,6 +138,8 @@ impl Solids {
             distance: distance as f32,
             uv: Vec2::ZERO,
             tangent: Vec3::ZERO,
+            width: 0.0,
+            curvature: 0.0,
             uv_width: 0.0,
             vertex_colour: Vec3::ONE,
             instance: self.first_instance.saturating_add(body),
@@ -165,7 +170,7 @@ impl Nearest for Solids {
             wall.end.t
         });
         let (body, wall) = found?;
-        Some(self.hit_at(body, &wall, line, ray))
+        Some(self.hit_at(body, &wall, line, ray, 0.0))
     }
 }
 
@@ -195,34 +200,6 @@ impl Solids {
     }
 }
 
-impl Fan {
-    /// What is behind a body's hulls is to be asked for, what is behind its cores is dark.
-    fn stretches(&self, body: &Ready, out: &mut Vec<Stretch>) {
-        let (mut lamp, mut any) = (false, false);
-        for shell in &body.shells {
-            let (from, to) = match self.shadow(shell, &body.bounds, MARGIN) {
-                Shadow::Nothing => continue,
-                Shadow::Stretch(from, to) => (from, to),
-                Shadow::Lamp => {
-                    lamp = true;
-                    (0.0, 1.0)
-                }
-            };
-            any = true;
-            out.push(Stretch { from, to, dark: false });
-        }
-        // With a lamp and a place both in the body there need be no wall between them.
-        if lamp || !any {
-            return;
-        }
-        for core in &body.cores {
-            if let Shadow::Stretch(from, to) = self.shadow(core, &body.bounds, -MARGIN) {
-                out.push(Stretch { from, to, dark: true });
-            }
-        }
-    }
-}
-
 impl Occlude for Solids {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let line = line(segment);
@@ -237,7 +214,8 @@ impl Occlude for Solids {
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
         let fan = Fan::new(source, a, b);
-        let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], out);
+        let mut work = Work::default();
+        let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], &mut work, out);
         match self.acceleration {
             Acceleration::Boxes => self.boxes.within(fan.bounds(), visit),
             Acceleration::None => (0..self.bodies.len() as u32).for_each(&mut visit),

@@ -10,7 +10,7 @@ use super::{
     csg::{Compound, Expression},
     hull::Solid,
     member::Member,
-    node::{DEEPEST, Fault, Node, Plane, Wrong},
+    node::{DEEPEST, Fault, Node, Wrong},
 };
 
 /// A part of a body under construction.
@@ -20,13 +20,13 @@ struct Part {
     bounds: Bounds,
     /// Polyhedra around it, placed.
     hulls: Vec<Solid>,
-    /// Polyhedra that lie wholly in it, placed.
-    cores: Vec<Solid>,
 }
 
 /// Collects members while walking down a tree.
 struct Walk {
     members: Vec<Member>,
+    /// Around each of them.
+    boxes: Vec<Bounds>,
     path: Vec<usize>,
 }
 
@@ -40,19 +40,17 @@ impl Walk {
                 let member = Member::new(shape, *world_from_solid, *material, positive)?;
                 let hulls = vec![member.hull.placed(world_from_solid)];
                 let bounds = bounds(&member, &hulls[0]);
-                let cores = vec![member.core.placed(world_from_solid)];
                 self.members.push(member);
-                Ok(Part { expression: Expression::Member(self.members.len() - 1), bounds, hulls, cores })
+                self.boxes.push(bounds.padded());
+                Ok(Part { expression: Expression::Member(self.members.len() - 1), bounds, hulls })
             }
             Node::Union(nodes) => {
                 let parts = self.parts(nodes, 0, positive)?;
                 let expression = any(&parts);
-                let mut all =
-                    Part { expression, bounds: Bounds::EMPTY, hulls: Vec::new(), cores: Vec::new() };
+                let mut all = Part { expression, bounds: Bounds::EMPTY, hulls: Vec::new() };
                 for part in parts {
                     all.bounds = all.bounds.union(part.bounds);
                     all.hulls.extend(part.hulls);
-                    all.cores.extend(part.cores);
                 }
                 Ok(all)
             }
@@ -64,14 +62,14 @@ impl Walk {
                 let volume = |part: &Part| part.hulls.iter().map(Solid::volume).sum::<f64>();
                 let least = parts.into_iter().min_by(|a, b| volume(a).total_cmp(&volume(b)));
                 let (least, bounds) = least.zip(bounds).ok_or(Wrong::NoMembers)?;
-                Ok(Part { expression, bounds, hulls: least.hulls, cores: Vec::new() })
+                Ok(Part { expression, bounds, hulls: least.hulls })
             }
             Node::Difference(whole, cuts) => {
                 let whole = self.parts(std::slice::from_ref(&**whole), 0, positive)?;
                 let cuts = self.parts(cuts, 1, !positive)?.into_iter().map(|part| part.expression).collect();
                 let whole = whole.into_iter().next().ok_or(Wrong::NoMembers)?;
                 let expression = Expression::Without(Box::new(whole.expression), cuts);
-                Ok(Part { expression, cores: Vec::new(), ..whole })
+                Ok(Part { expression, ..whole })
             }
         }
     }
@@ -113,20 +111,18 @@ fn bounds(member: &Member, hull: &Solid) -> Bounds {
     }
 }
 
-/// The planes of a placed hull's faces.
-fn planes(hull: &Solid) -> Box<[Plane]> {
-    let mut planes: Vec<Plane> = Vec::new();
-    for face in &hull.faces {
-        let [a, b, c] = face.map(|i| hull.corners[i as usize]);
-        let Some(normal) = (b - a).cross(c - a).try_normalize() else { continue };
-        // Both halves of a square have one plane; the outer one, if rounding parts them.
-        let offset = normal.dot(a).max(normal.dot(b)).max(normal.dot(c));
-        match planes.iter_mut().find(|plane| plane.normal.distance_squared(normal) < 1e-24) {
-            Some(plane) => plane.offset = plane.offset.max(offset),
-            None => planes.push(Plane { normal, offset }),
+/// Which of a body's boxes have something in common within its own.
+fn pairs(boxes: &[Bounds], body: Bounds) -> Vec<(u32, u32, Bounds)> {
+    let mut pairs = Vec::new();
+    for (i, one) in (0u32..).zip(boxes) {
+        for (j, two) in (0u32..i).zip(boxes) {
+            let common = one.common(*two).common(body);
+            if !common.is_empty() {
+                pairs.push((j, i, common));
+            }
         }
     }
-    planes.into()
+    pairs
 }
 
 /// Makes bodies ready.
@@ -134,7 +130,7 @@ pub(crate) fn solids(bodies: Vec<Body>, first_instance: u32) -> Result<Solids, F
     let mut ready = Vec::with_capacity(bodies.len());
     let mut hulls = Vec::new();
     for (index, body) in bodies.into_iter().enumerate() {
-        let mut walk = Walk { members: Vec::new(), path: Vec::new() };
+        let mut walk = Walk { members: Vec::new(), boxes: Vec::new(), path: Vec::new() };
         let mut part = match walk.part(&body.node, true) {
             Ok(part) => part,
             Err(wrong) => return Err(Fault { body: index, path: walk.path, wrong }),
@@ -144,17 +140,14 @@ pub(crate) fn solids(bodies: Vec<Body>, first_instance: u32) -> Result<Solids, F
             part.hulls.clear();
         }
         let bounds = if part.bounds.is_empty() { Bounds::EMPTY } else { part.bounds.padded() };
-        let shells = part.hulls.iter().map(planes).collect();
-        // What light passes through has no core that keeps it off.
-        let opaque = body.medium.is_none();
-        let cores = part.cores.iter().filter(|_| opaque).map(planes).collect();
+        let pairs = pairs(&walk.boxes, bounds);
         hulls.extend(part.hulls.into_iter().map(|solid| Hull {
             body: index as u32,
             corners: solid.corners,
             faces: solid.faces,
         }));
         let compound = Compound { members: walk.members, expression: part.expression };
-        ready.push(Ready { compound, medium: body.medium, bounds, shells, cores });
+        ready.push(Ready { compound, medium: body.medium, bounds, boxes: walk.boxes, pairs });
     }
     let bounds: Vec<Bounds> = ready.iter().map(|body| body.bounds).collect();
     let boxes = Boxes::new(&bounds);

@@ -43,8 +43,8 @@ pub(crate) enum Surface {
     Planes(Box<[Plane]>),
 }
 
-const BASE: Plane = Plane { normal: DVec3::NEG_Y, offset: 0.0 };
-const TOP: Plane = Plane { normal: DVec3::Y, offset: 1.0 };
+pub(crate) const BASE: Plane = Plane { normal: DVec3::NEG_Y, offset: 0.0 };
+pub(crate) const TOP: Plane = Plane { normal: DVec3::Y, offset: 1.0 };
 
 impl Chord {
     const WHOLE: Self = Self {
@@ -169,6 +169,30 @@ impl Surface {
             };
         }
         chord.bend(&quadric, rising)
+    }
+
+    /// Whether a face is plane.
+    pub(crate) fn is_flat(&self, face: u32) -> bool {
+        match self {
+            Self::Ball => false,
+            Self::Frustum { .. } => face != 0,
+            Self::Planes(_) => true,
+        }
+    }
+
+    /// How far outside a point is: a distance for planes, off by a factor of the shape's for others; negative inside.
+    pub(crate) fn beyond(&self, p: DVec3) -> f64 {
+        match self {
+            Self::Ball => p.length() - 1.0,
+            Self::Frustum { taper } => {
+                let side = p.x.hypot(p.z) - (1.0 - taper * p.y);
+                side.max(-p.y).max(p.y - 1.0)
+            }
+            Self::Planes(planes) => planes
+                .iter()
+                .map(|plane| plane.normal.dot(p) - plane.offset)
+                .fold(f64::NEG_INFINITY, f64::max),
+        }
     }
 
     /// Some vector along the outward normal of a face at a point of it.

@@ -94,6 +94,37 @@ impl Compound {
         }
     }
 
+    /// Whether the surface of either member (or of the one, given twice) may be the body's at a point of it.
+    ///
+    /// It is if the body around the point depends on which side of them one is, the others being as they are.
+    pub(crate) fn shows(&self, point: DVec3, [one, two]: [u32; 2]) -> bool {
+        let count = self.members.len();
+        match count {
+            1 => true,
+            2..=FEW => self.depends(point, [one, two], &mut [false; FEW]),
+            _ => self.depends(point, [one, two], &mut vec![false; count]),
+        }
+    }
+
+    /// The same, with room for which members hold the point.
+    fn depends(&self, point: DVec3, [one, two]: [u32; 2], inside: &mut [bool]) -> bool {
+        for (member, index) in self.members.iter().zip(0..) {
+            if index == one || index == two {
+                continue;
+            }
+            match member.holds(point) {
+                Some(within) => inside[index as usize] = within,
+                None => return true,
+            }
+        }
+        let mut with = |first, second| {
+            (inside[one as usize], inside[two as usize]) = (first, second);
+            self.expression.holds(inside)
+        };
+        let outside = with(false, false);
+        [(true, true), (true, false), (false, true)].into_iter().any(|(a, b)| with(a, b) != outside)
+    }
+
     fn sweep(
         &self,
         line: (DVec3, DVec3),

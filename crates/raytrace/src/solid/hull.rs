@@ -53,11 +53,6 @@ pub(crate) fn around_ball() -> Solid {
     icosahedron((1.0 + MARGIN) * 3f64.sqrt() / (GOLDEN * GOLDEN))
 }
 
-/// Within the unit ball.
-pub(crate) fn within_ball() -> Solid {
-    icosahedron((1.0 - MARGIN) / (1.0 + GOLDEN * GOLDEN).sqrt())
-}
-
 const GOLDEN: f64 = 1.618_033_988_749_895;
 
 /// Corners `scale` (0, ±1, ±φ) and their rotations; edges of 2 `scale`.
@@ -94,12 +89,6 @@ pub(crate) fn around_frustum(top: f64) -> Solid {
     let wide = 2f64.sqrt() * (1.0 + MARGIN);
     let tip = if top == 0.0 { 2.0 * MARGIN } else { MARGIN };
     tapered(4, [wide, wide * top], [-MARGIN, 1.0 + tip])
-}
-
-/// Within one: octagons in its two circles.
-pub(crate) fn within_frustum(top: f64) -> Solid {
-    let wide = 1.0 - 4.0 * MARGIN;
-    tapered(8, [wide, wide * top], [MARGIN, 1.0 - 2.0 * MARGIN])
 }
 
 /// Regular polygons about the y axis, their corners at these radii and heights, joined.

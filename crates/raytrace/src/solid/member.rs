@@ -1,5 +1,7 @@
 //! One placed convex solid, made ready for lines.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::{
@@ -22,8 +24,6 @@ pub(crate) struct Member {
     pub(crate) surface: Surface,
     /// Around the shape, in its own coordinates.
     pub(crate) hull: Solid,
-    /// Within the shape, likewise.
-    pub(crate) core: Solid,
     /// Centre and radius of a ball around the shape, in its own coordinates.
     pub(crate) ball: (DVec3, f64),
     pub(crate) world_from_solid: DAffine3,
@@ -63,7 +63,7 @@ impl Member {
         material: u32,
         positive: bool,
     ) -> Result<Self, Wrong> {
-        let (surface, hull, core) = prepare(shape)?;
+        let (surface, hull) = prepare(shape)?;
         let ball = match surface {
             Surface::Ball => (DVec3::ZERO, 1.0),
             _ => hull.ball(),
@@ -95,7 +95,6 @@ impl Member {
         Ok(Self {
             surface,
             hull,
-            core,
             ball,
             world_from_solid,
             solid_from_world,
@@ -109,8 +108,13 @@ impl Member {
     }
 
     /// A point in the shape's coordinates.
-    fn local(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn local(&self, point: DVec3) -> DVec3 {
         self.solid_from_world * (point - self.world_from_solid.translation)
+    }
+
+    /// A direction in the shape's coordinates.
+    pub(crate) fn local_vector(&self, way: DVec3) -> DVec3 {
+        self.solid_from_world * way
     }
 
     /// The line in the shape's coordinates; none when it passes the shape's ball.
@@ -139,6 +143,13 @@ impl Member {
         })
     }
 
+    /// Whether it holds a point; none for points near its surface, to 1e-6 of its size.
+    pub(crate) fn holds(&self, point: DVec3) -> Option<bool> {
+        let beyond = self.surface.beyond(self.local(point)) / self.ball.1;
+        // Said so that what is not a number is near.
+        (beyond.abs() > 1e-6).then_some(beyond < 0.0)
+    }
+
     /// Where the line is inside.
     pub(crate) fn chord(&self, line: (DVec3, DVec3)) -> Option<Chord> {
         let local = self.line(line)?;
@@ -158,18 +169,37 @@ impl Member {
     }
 }
 
+impl Member {
+    /// How fast the normal of a face turns along it at a point of it, at most \[rad/m\]; 0 for flat ones.
+    ///
+    /// By differences over a thousandth of the solid's size, in two directions along the face and between them.
+    pub(crate) fn curvature(&self, face: u32, point: DVec3) -> f64 {
+        if self.surface.is_flat(face) {
+            return 0.0;
+        }
+        let normal = self.normal(face, point);
+        let step = 1e-3 / self.per_metre.max_element();
+        let (u, v) = normal.any_orthonormal_pair();
+        let turned = |way: DVec3| {
+            let turned = self.normal(face, point + way * step).distance(normal) / step;
+            if turned.is_finite() { turned } else { 0.0 }
+        };
+        [u, v, (u + v) * FRAC_1_SQRT_2, (u - v) * FRAC_1_SQRT_2].into_iter().map(turned).fold(0.0, f64::max)
+    }
+}
+
 fn frobenius(m: &DMat3) -> f64 {
     (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }
 
-/// Its surface, a polyhedron around it and one within it.
-fn prepare(shape: &Shape) -> Result<(Surface, Solid, Solid), Wrong> {
+/// Its surface, and a polyhedron around it.
+fn prepare(shape: &Shape) -> Result<(Surface, Solid), Wrong> {
     let frustum = |top: f64| {
         let surface = Surface::Frustum { taper: 1.0 - top };
-        Ok((surface, hull::around_frustum(top), hull::within_frustum(top)))
+        Ok((surface, hull::around_frustum(top)))
     };
     match shape {
-        Shape::Sphere => Ok((Surface::Ball, hull::around_ball(), hull::within_ball())),
+        Shape::Sphere => Ok((Surface::Ball, hull::around_ball())),
         Shape::Cylinder => frustum(1.0),
         Shape::Cone => frustum(0.0),
         Shape::Frustum { top } if top.is_finite() && *top >= 0.0 => frustum(*top),
@@ -184,7 +214,7 @@ fn prepare(shape: &Shape) -> Result<(Surface, Solid, Solid), Wrong> {
             let planes: Option<Vec<Plane>> = planes.iter().map(unit).collect();
             let planes = planes.ok_or(Wrong::Plane)?;
             let hull = hull::polyhedron(&planes)?;
-            Ok((Surface::Planes(planes.into()), hull.clone(), hull))
+            Ok((Surface::Planes(planes.into()), hull))
         }
     }
 }

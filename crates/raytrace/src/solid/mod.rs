@@ -19,7 +19,11 @@
 //! for 10⁶ m. [`light::Hit`] carries the bound of its place, the rounding to f32 included.
 //!
 //! **Shadows.** An opaque body lets nothing through, one with a medium what [`crate::through`] says of its walls.
-//! Shadow intervals are asked for behind circumscribed polyhedra, and known to be dark behind inscribed ones.
+//! Shadow intervals ([`light::Occlude::shadows`]) end where the shadow does: dark behind opaque bodies, to be asked for
+//! behind clear ones. The plane through source and segment cuts members in conics and edges; shadows end at ways that
+//! touch these or pass their corners, each confirmed by rays. To 1e-12 of the segment and the accuracy of walls; where
+//! a body stands on the segment or pierces it rays cannot tell nearer than 1e-9 of the coordinates, at the tip of a
+//! cone no nearer than 1e-8 of its size.
 //!
 //! **Where it is wrong.** Slivers and gaps thinner than that bound are not there. Lines that run *within* a face,
 //! to that bound, are taken as if they ran next to it, on the same side for all faces in common. Where the
@@ -49,12 +53,17 @@ mod answers;
 mod boxes;
 mod build;
 mod chord;
+mod conic;
 mod csg;
+mod fan;
 mod hull;
 mod member;
 mod node;
 pub mod reference;
+mod roots;
+mod section;
 mod shadow;
+mod sheet;
 
 use std::sync::Arc;
 
@@ -102,10 +111,10 @@ struct Ready {
     medium: Option<Arc<Medium>>,
     /// Empty for a body without points.
     bounds: Bounds,
-    /// The planes of each of its hulls.
-    shells: Vec<Box<[Plane]>>,
-    /// The planes of polyhedra within it that keep all light off.
-    cores: Vec<Box<[Plane]>>,
+    /// Around each member.
+    boxes: Vec<Bounds>,
+    /// Members whose surfaces may cross, and where.
+    pairs: Vec<(u32, u32, Bounds)>,
 }
 
 /// Where a line enters or leaves a body.

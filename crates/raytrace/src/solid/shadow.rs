@@ -1,120 +1,143 @@
-//! The shadow of a convex polyhedron on a segment.
+//! The shadow of bodies on a segment, exactly.
 //!
-//! Seen from the source, the segment a b spans a plane fan. Its points are p + α (a − p) + β (b − p) for a
-//! lamp at p (α, β ≥ 0, α + β ≤ 1), a + β (b − a) + α w for a sun towards w (α ≥ 0, 0 ≤ β ≤ 1). The
-//! polyhedron's half-spaces are linear in (α, β), so what the fan has in common with it is a convex polygon,
-//! and its shadow on the segment is one interval, found from the polygon's corners: s = β / (α + β), or β.
+//! A way from the segment to the source is blocked if it meets a wall of the compound, as a ray would. That can only
+//! change at places that [`super::section`] knows; between neighbouring ones a single way tells for all. A place
+//! where it does change is where a stretch ends, once ways just before and just behind it have confirmed it;
+//! otherwise halving finds it. So what is dark is what rays say; what cuts the members only says where to look.
+//!
+//! *How exactly.* A stretch ends where the shadow does, to [`EXACT`] of the segment and to what walls are known to
+//! (see [`crate::solid`]), as a lamp projects it. Where the body stands on the segment or pierces it, rays themselves
+//! cannot tell nearer than 1e-9 of the coordinates ([`TOUCH`]); a lamp that near to a surface is on either side of it.
+//! A piece of shadow, or of light between two, may be missed where it is shorter than [`EXACT`], or where both its
+//! ends come from one pair of curved members whose surfaces touch there, but for 1e-8 of the body's size.
 
-use glam::{DVec2, DVec3};
-use light::PointSource;
+use glam::DVec3;
+use light::Stretch;
 
-use super::{boxes::Bounds, node::Plane};
+use super::{
+    Ready,
+    fan::{Fan, TOUCH},
+    member::U,
+    section::Section,
+    sheet::Sheet,
+};
 
-/// The fan of a source over a segment.
-pub(crate) struct Fan {
-    source: PointSource,
-    a: DVec3,
-    b: DVec3,
+/// Share of the segment to which its places are told apart.
+const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Working memory.
+#[derive(Default)]
+pub(crate) struct Work {
+    places: Vec<f64>,
+    sections: Vec<Option<Section>>,
 }
 
 impl Fan {
-    pub(crate) fn new(source: &PointSource, a: DVec3, b: DVec3) -> Self {
-        Self { source: *source, a, b }
+    /// Appends the body's shadow.
+    pub(crate) fn stretches(&self, body: &Ready, work: &mut Work, out: &mut Vec<Stretch>) {
+        if body.bounds.is_empty() || self.misses(&body.bounds) || !self.places(body, work) {
+            return;
+        }
+        let places = &mut work.places;
+        places.sort_unstable_by(f64::total_cmp);
+        // Nearer than this points of the segment are the same in f64.
+        let exact = EXACT.max(8.0 * U * self.size / (self.b - self.a).length());
+        let touch = 4.0 * TOUCH * self.size / (self.b - self.a).length();
+        let blocked = |s: f64| self.blocked(&body.compound, s);
+        let (mut last, mut middle, mut from) = (0.0, 0.0, None);
+        for i in 0..=places.len() {
+            let next = places.get(i).copied().unwrap_or(1.0);
+            if next - last < exact && i < places.len() {
+                continue;
+            }
+            let here = 0.5 * (last + next);
+            let dark = blocked(here);
+            if dark != from.is_some() {
+                let place = match last {
+                    0.0 => 0.0,
+                    _ => border(blocked, !dark, [middle, here], last, [exact, touch]),
+                };
+                match from.take() {
+                    Some(from) => out.push(Stretch { from, to: place, dark: body.medium.is_none() }),
+                    None => from = Some(place),
+                }
+            }
+            (last, middle) = (next, here);
+        }
+        if let Some(from) = from {
+            out.push(Stretch { from, to: 1.0, dark: body.medium.is_none() });
+        }
     }
 
-    /// A box around all of it.
-    pub(crate) fn bounds(&self) -> Bounds {
-        let ends = Bounds::around(&[self.a, self.b]);
-        match self.source {
-            PointSource::At(p) => ends.union(Bounds { low: p, high: p }).padded(),
-            PointSource::Toward(way) => {
-                let low = DVec3::select(way.cmplt(DVec3::ZERO), DVec3::NEG_INFINITY, ends.padded().low);
-                let high = DVec3::select(way.cmpgt(DVec3::ZERO), DVec3::INFINITY, ends.padded().high);
-                Bounds { low, high }
+    /// Collects where the body's shadow may begin or end, between 0 and 1; false when it is nowhere near.
+    fn places(&self, body: &Ready, work: &mut Work) -> bool {
+        let Work { places, sections } = work;
+        places.clear();
+        sections.clear();
+        let compound = &body.compound;
+        let mut see = |s: f64, at: DVec3, members: [u32; 2]| {
+            if s > 0.0 && s < 1.0 && compound.shows(at, members) {
+                places.push(s);
+            }
+        };
+        let sheet = Sheet::new(self, &body.bounds);
+        let mut any = false;
+        for ((member, bounds), i) in body.compound.members.iter().zip(&body.boxes).zip(0..) {
+            let near = !self.misses(bounds) && Self::reaches(self.local_pencil(member), member.ball);
+            any |= near;
+            let sheet = sheet.as_ref().filter(|_| near);
+            let see = |s, at| see(s, at, [i; 2]);
+            sections.push(sheet.map(|sheet| Section::new(member, self, sheet, see)));
+        }
+        if !any {
+            return false;
+        }
+        if let Some(sheet) = &sheet {
+            for &(i, j, common) in &body.pairs {
+                if let (Some(one), Some(two)) = (&sections[i as usize], &sections[j as usize])
+                    && self.passes(&common)
+                {
+                    one.corners(two, sheet, |s, at| see(s, at, [i, j]));
+                }
             }
         }
-    }
-
-    /// What a convex polyhedron within `bounds`, larger than it is by a share `margin` of the coordinates
-    /// (negative: smaller), keeps the light off.
-    pub(crate) fn shadow(&self, planes: &[Plane], bounds: &Bounds, margin: f64) -> Shadow {
-        let reach = |p: DVec3| p.abs().max_element();
-        let size = reach(bounds.low).max(reach(bounds.high)).max(reach(self.a)).max(reach(self.b));
-        let (corner, u, v, lamp) = match self.source {
-            PointSource::At(p) => (p, self.a - p, self.b - p, reach(p)),
-            // Farther than the polyhedron from any point of the segment.
-            PointSource::Toward(way) => (self.a, way * 4.0 * size, self.b - self.a, 0.0),
-        };
-        let sun = matches!(self.source, PointSource::Toward(_));
-        let (mut polygon, mut kept) = (Vec::with_capacity(16), Vec::with_capacity(16));
-        polygon.extend([DVec2::ZERO, DVec2::X, DVec2::Y]);
-        if sun {
-            polygon.insert(2, DVec2::ONE);
-        }
-        let pad = margin * size.max(lamp);
-        for plane in planes {
-            let height = plane.normal.dot(corner) - plane.offset - pad;
-            let along = DVec2::new(plane.normal.dot(u), plane.normal.dot(v));
-            if !clip(&mut polygon, &mut kept, height, along) {
-                return Shadow::Nothing;
+        body.compound.walls((self.a, self.b - self.a), |wall| {
+            if wall.end.t > 0.0 && wall.end.t < 1.0 {
+                places.push(wall.end.t);
             }
-        }
-        // Distance from the segment, and place along it; none at the lamp.
-        let length = u.length().max(v.length());
-        let off = |at: &DVec2| if sun { at.x * 4.0 * size } else { (1.0 - at.element_sum()) * length };
-        let place = |at: &DVec2| match at.element_sum() {
-            _ if sun => Some(at.y),
-            sum => (sum > 1e-12).then(|| at.y / sum),
-        };
-        if polygon.iter().all(|at| off(at) <= TOUCH * size) {
-            return Shadow::Nothing;
-        }
-        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-        for at in &polygon {
-            let Some(s) = place(at) else { return Shadow::Lamp };
-            (from, to) = (from.min(s), to.max(s));
-        }
-        let (from, to) = ((from - margin).max(0.0), (to + margin).min(1.0));
-        if from < to { Shadow::Stretch(from, to) } else { Shadow::Nothing }
+            wall.end.t >= 1.0
+        });
+        true
     }
 }
 
-/// How much larger what may be in the way is taken, as a share of the coordinates: all here rounds far below.
-pub(crate) const MARGIN: f64 = 1e-12;
-
-/// What reaches no farther than this from the segment, as a share of the coordinates, is the surface that the
-/// segment lies on, seen from its lit side. A place in f32 is 60 times less exact.
-const TOUCH: f64 = 1e-9;
-
-/// What a polyhedron does to a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Shadow {
-    /// No point of it is behind the polyhedron.
-    Nothing,
-    /// From here to here, as shares of the way.
-    Stretch(f64, f64),
-    /// The lamp is within the polyhedron.
-    Lamp,
-}
-
-/// Keeps the part of a convex polygon with height + along · x ≤ 0 (Sutherland and Hodgman 1974); false when none
-/// is left. `kept` is room to work in.
-fn clip(polygon: &mut Vec<DVec2>, kept: &mut Vec<DVec2>, height: f64, along: DVec2) -> bool {
-    let value = |x: &DVec2| height + along.dot(*x);
-    if polygon.iter().all(|x| value(x) <= 0.0) {
-        return true; // most planes of a polyhedron cut nothing off
-    }
-    kept.clear();
-    for (i, x) in polygon.iter().enumerate() {
-        let next = &polygon[(i + 1) % polygon.len()];
-        let (here, there) = (value(x), value(next));
-        if here <= 0.0 {
-            kept.push(*x);
+/// Where, near `at` and within a bracket, ways cease to be `before`, blocked or not.
+///
+/// `at` itself if ways around it, as near as the first or at least the second of `sure`, say so.
+fn border(
+    blocked: impl Fn(f64) -> bool,
+    before: bool,
+    [mut low, mut high]: [f64; 2],
+    at: f64,
+    sure: [f64; 2],
+) -> f64 {
+    for by in sure {
+        for s in [at - by, at + by] {
+            if low < s && s < high {
+                if blocked(s) == before { low = s } else { high = s }
+            }
         }
-        if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
-            kept.push(*x + (*next - *x) * (here / (here - there)));
+        // Half as much again for the rounding of at ± by.
+        if at - low <= 1.5 * by && high - at <= 1.5 * by {
+            return at;
         }
     }
-    std::mem::swap(polygon, kept);
-    !polygon.is_empty()
+    while high - low > sure[0] {
+        let s = 0.5 * (low + high);
+        if s <= low || s >= high {
+            break;
+        }
+        if blocked(s) == before { low = s } else { high = s }
+    }
+    0.5 * (low + high)
 }

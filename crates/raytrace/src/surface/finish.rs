@@ -136,7 +136,7 @@ impl Finish {
 ///     place: Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 },
 ///     shading_normal: Vec3::Y,
 ///     toward_eye: Vec3::new(0.6, 0.8, 0.0),
-///     distance: 1.0, uv: Vec2::ZERO, tangent: Vec3::ZERO, uv_width: 0.0, vertex_colour: Vec3::ONE,
+///     distance: 1.0, uv: Vec2::ZERO, tangent: Vec3::ZERO, width: 0.0, curvature: 0.0, uv_width: 0.0, vertex_colour: Vec3::ONE,
 ///     instance: 0, triangle: 0, material: 0, front: true, path: Path::EYE,
 /// };
 /// let share = furnace(&white, &hit);

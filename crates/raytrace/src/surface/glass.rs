@@ -5,7 +5,7 @@ use light::{Hit, Medium, Shade, Spectrum, Surroundings, fresnel, fresnel_polaris
 
 use super::finish::{Finish, Surface};
 use super::normals::shading_normal;
-use super::shading::{Mirrored, follow};
+use super::shading::{MIRROR, Mirrored, follow};
 
 /// The surface of a transparent body: local ray tracing (thesis 2.2), one mirrored and one refracted ray a hit.
 ///
@@ -53,14 +53,17 @@ impl Glass {
     fn outside(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
         let (radiance, mirrored) = self.surface.without_mirror(hit, around);
         let (mirror, boundary) = self.mirror_and_boundary(hit, &mirrored);
-        let radiance = radiance + follow(hit, mirrored.direction, mirror, around);
+        let radiance = radiance + follow(hit, mirrored.direction, mirror, MIRROR, around);
         let passing =
             (1.0 - mirrored.metallic) * (1.0 - boundary).max(0.0) * self.surface.finish.transmission;
         let colour = Spectrum::reflectance(self.surface.finish.base_at(hit)).map(|band| band.clamp(0.0, 1.0));
-        let onwards =
-            if self.medium.thin { Some(-hit.toward_eye) } else { self.refracted(hit, mirrored.normal) };
+        let (onwards, bend) = if self.medium.thin {
+            (Some(-hit.toward_eye), 0.0)
+        } else {
+            (self.refracted(hit, mirrored.normal), bend(1.0 / self.medium.index))
+        };
         match onwards {
-            Some(direction) => radiance + follow(hit, direction, colour * passing, around),
+            Some(direction) => radiance + follow(hit, direction, colour * passing, bend, around),
             None => radiance,
         }
     }
@@ -90,12 +93,13 @@ impl Glass {
         let reflected = fresnel(index, f64::from(normal.dot(hit.toward_eye))) as f32;
         let mirror = interface::reflect(-hit.toward_eye.as_dvec3(), normal.as_dvec3()).as_vec3();
         let mirror = kept(mirror, hit.place.normal);
-        let mut radiance = follow(hit, mirror, left * reflected, around);
+        let mut radiance = follow(hit, mirror, left * reflected, MIRROR, around);
         if let Some(direction) = refract(-hit.toward_eye.as_dvec3(), normal.as_dvec3(), index) {
             let colour =
                 Spectrum::reflectance(self.surface.finish.base_at(hit)).map(|band| band.clamp(0.0, 1.0));
             let share = left * colour * ((1.0 - reflected) * self.medium.transmission);
-            radiance += follow(hit, -kept(-direction.as_vec3(), hit.place.normal), share, around);
+            let direction = -kept(-direction.as_vec3(), hit.place.normal);
+            radiance += follow(hit, direction, share, bend(self.medium.index), around);
         }
         radiance
     }
@@ -106,6 +110,11 @@ impl Glass {
         let direction = refract(-hit.toward_eye.as_dvec3(), normal.as_dvec3(), index)?.as_vec3();
         Some(-kept(-direction, hit.place.normal))
     }
+}
+
+/// How many times the turn of the normal a refracted ray turns, near the normal: Snell's law for small angles.
+fn bend(index_from_over_into: f32) -> f32 {
+    (1.0 - index_from_over_into).abs()
 }
 
 /// `direction`, lifted above the plane of `face` where the normal for shading has sent it below.

@@ -38,7 +38,7 @@ impl Shade for Phong {
         let n = self.exponent.max(0.0);
         let mut radiance = Spectrum::ZERO;
         around.arrivals(&facing(&hit.place, normal), &mut |arrival| match arrival {
-            Arrival::Beam { toward, irradiance } => {
+            Arrival::Beam { toward, irradiance, .. } => {
                 let cos = toward.dot(normal);
                 let fade = terminator(toward.dot(hit.place.normal), cos, agreement);
                 let peak = mirror.dot(toward).clamp(0.0, 1.0).powf(n) * (n + 2.0) / (2.0 * PI);

@@ -8,7 +8,7 @@ use light::{Arrival, Hit, Place, Shade, Spectrum, Surroundings};
 
 use super::albedo::{Albedo, Fraction};
 use super::finish::Surface;
-use super::lobe::{lobe, width};
+use super::lobe::{Facets, lobe};
 use super::normals::{facing, shading_normal, terminator};
 
 /// Roughness up to which the specular share of extended light is that of the mirror ray alone.
@@ -24,6 +24,7 @@ struct Local<'a> {
     /// cos between `normal` and `face`.
     agreement: f32,
     roughness: f32,
+    facets: Facets,
     at: Fraction,
     ior: f32,
     /// Share of the area that is metal.
@@ -55,6 +56,8 @@ impl<'a> Local<'a> {
             face: hit.place.normal,
             agreement: normal.dot(hit.place.normal),
             roughness,
+            // Half of what the bundle itself spreads turns the half vector as well.
+            facets: Facets::new(roughness, hit.turn() + 0.5 * hit.path.spread),
             at,
             ior: finish.ior,
             metallic,
@@ -89,14 +92,15 @@ impl<'a> Local<'a> {
     }
 
     /// f cos for a beam from `toward` \[1/sr\]: what of irradiance facing it leaves towards the eye.
-    fn reflect(&self, toward: Vec3) -> Spectrum {
+    /// `radius` is that of the source \[rad\].
+    fn reflect(&self, toward: Vec3, radius: f32) -> Spectrum {
         let cos = toward.dot(self.normal);
         let fade = terminator(toward.dot(self.face), cos, self.agreement);
         if fade <= 0.0 {
             return Spectrum::ZERO;
         }
         let mut f = self.body * (FRAC_1_PI * self.below * (1.0 - self.boundary.at(cos, self.at)));
-        let lobe = lobe(self.normal, self.out, toward, width(self.roughness));
+        let lobe = lobe(self.normal, self.out, toward, &self.facets, radius);
         let glass = light::fresnel(f64::from(self.ior), f64::from(lobe.cos_facet)) as f32;
         f += Spectrum::splat((1.0 - self.metallic) * glass * lobe.density);
         if self.metallic > 0.0 {
@@ -155,7 +159,7 @@ impl Surface {
         let even = FRAC_1_PI * local.below * (1.0 - local.boundary.mean(local.at));
         let mut light = Spectrum::ZERO;
         around.arrivals(&place.flipped(), &mut |arrival| match arrival {
-            Arrival::Beam { toward, irradiance } => light += irradiance * local.pass(toward),
+            Arrival::Beam { toward, irradiance, .. } => light += irradiance * local.pass(toward),
             Arrival::Field { irradiance } => light += irradiance * even,
         });
         let colour =
@@ -202,8 +206,8 @@ impl Surface {
         let mirror = mirrored(local.roughness);
         let even = local.diffuse_share() + specular * (1.0 - mirror);
         let mut receive = |arrival| match arrival {
-            Arrival::Beam { toward, irradiance } => {
-                radiance = irradiance.mul_add(local.reflect(toward), radiance);
+            Arrival::Beam { toward, irradiance, radius } => {
+                radiance = irradiance.mul_add(local.reflect(toward, radius), radiance);
             }
             Arrival::Field { irradiance } => field += irradiance,
         };
@@ -228,18 +232,27 @@ impl Surface {
 impl Shade for Surface {
     fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
         let (radiance, mirrored) = self.without_mirror(hit, around);
-        radiance + follow(hit, mirrored.direction, mirrored.share, around)
+        radiance + follow(hit, mirrored.direction, mirrored.share, MIRROR, around)
     }
 }
 
-/// What a further ray from `hit` adds, `share` of its radiance.
-pub(crate) fn follow(hit: &Hit, direction: Vec3, share: Spectrum, around: &dyn Surroundings) -> Spectrum {
+/// How many times the turn of the normal a mirrored ray turns.
+pub(crate) const MIRROR: f32 = 2.0;
+
+/// What a further ray from `hit` adds, `share` of its radiance; `bend` as in [`light::Path::then`].
+pub(crate) fn follow(
+    hit: &Hit,
+    direction: Vec3,
+    share: Spectrum,
+    bend: f32,
+    around: &dyn Surroundings,
+) -> Spectrum {
     let largest = share.max();
     if largest <= 0.0 {
         return Spectrum::ZERO;
     }
     let ray = hit.place.leave(direction, f32::INFINITY);
-    around.radiance(&ray, hit.path.then(largest.min(1.0))) * share
+    around.radiance(&ray, hit.path.then(largest.min(1.0), hit, bend)) * share
 }
 
 #[cfg(test)]

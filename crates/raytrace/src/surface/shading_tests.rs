@@ -22,6 +22,8 @@ fn hit(toward_eye: Vec3) -> Hit {
         distance: 1.0,
         uv: Vec2::splat(0.5),
         tangent: Vec3::X,
+        width: 0.0,
+        curvature: 0.0,
         uv_width: 0.0,
         vertex_colour: Vec3::ONE,
         instance: 0,
@@ -46,7 +48,7 @@ impl Surroundings for Beams {
             let local = direction(cos, 2.0 * PI * ((i % self.steps) as f32 + 0.5) / self.steps as f32);
             let toward = across * local.x + along * local.z + place.normal * local.y;
             let irradiance = Spectrum::splat(PI / (self.steps * self.steps) as f32 / cos);
-            receive(Arrival::Beam { toward, irradiance });
+            receive(Arrival::Beam { toward, irradiance, radius: 0.0 });
         }
     }
 
@@ -60,7 +62,7 @@ struct Lamp(Vec3);
 
 impl Surroundings for Lamp {
     fn arrivals(&self, _: &Place, receive: &mut dyn FnMut(Arrival)) {
-        receive(Arrival::Beam { toward: self.0, irradiance: Spectrum::ONE });
+        receive(Arrival::Beam { toward: self.0, irradiance: Spectrum::ONE, radius: 0.0 });
     }
 
     fn radiance(&self, _: &Ray, _: Path) -> Spectrum {

@@ -5,7 +5,7 @@
 //! part of an interval that lies in one pixel and before one face; between neighbours that see different
 //! things the border is found by halving. By the exact rule it is followed to the top and the bottom of its strip.
 //! What shows of a body is then one more span among those of the faces, and the pixels' areas are summed as ever.
-//! Secondary samples are the centroids of what shows, one for each pixel and body.
+//! Secondary samples are the centroids of what shows, one for each pixel and body, or several places spread over it.
 
 mod hulls;
 mod insert;
@@ -35,8 +35,8 @@ use hulls::Projected;
 ///
 /// **Where it is wrong.** A body that lies between two samples and covers neither is not seen: on a line, something
 /// narrower than a pixel that is also much narrower than its polyhedron. So are tips that lie between
-/// two lines. Borders are found to 1/8192 of a pixel. A body has one piece in a pixel,
-/// even where two of its faces meet. Veils are ordered against a body by nearness that is
+/// two lines. Borders are found to 1/8192 of a pixel. Edges within a body (creases, shadows,
+/// what it mirrors) are sampled ([`Localised::with_samples`]). Veils are ordered against a body by nearness that is
 /// straight between samples; bodies have no opacity. Bodies beyond what 32 bits number after all faces are not seen.
 pub struct Localised {
     scanline: Arc<Scanline>,
@@ -44,8 +44,8 @@ pub struct Localised {
     hulls: Vec<Projected>,
     /// Number that body 0 goes by: that of all faces.
     base: u32,
-    /// By material: whether it is shaded on every line.
-    traced: Vec<bool>,
+    /// Hits on a body in a pixel.
+    samples: u32,
     rays: AtomicU64,
     pixels: AtomicU64,
 }
@@ -58,21 +58,14 @@ impl Localised {
         let room = |hull: &&light::Hull| base.checked_add(hull.body).is_some();
         let project = |hull| Projected::new(&scanline.view, hull);
         let hulls = bodies.hulls().iter().filter(room).filter_map(project).collect();
-        Self {
-            scanline,
-            bodies,
-            hulls,
-            base,
-            traced: Vec::new(),
-            rays: AtomicU64::new(0),
-            pixels: AtomicU64::new(0),
-        }
+        Self { scanline, bodies, hulls, base, samples: 1, rays: AtomicU64::new(0), pixels: AtomicU64::new(0) }
     }
 
-    /// Bodies of these materials (true at their index) are shaded once for each line of a pixel instead of once: mirrors
-    /// and clear bodies, whose picture of the scene has edges of its own.
-    pub fn with_traced(self, traced: Vec<bool>) -> Self {
-        Self { traced, ..self }
+    /// Looks at what shows of a body in a pixel in `samples` places instead of one ([`Piece::samples`]), 65,535 at
+    /// most: what bodies show has edges of its own.
+    #[must_use]
+    pub fn with_samples(self, samples: u32) -> Self {
+        Self { samples: samples.min(u32::from(u16::MAX)), ..self }
     }
 
     /// The scanline that sees the faces.

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::Ordering;
 
 use glam::DVec2;
-use light::{Hit, Piece};
+use light::{Hit, Piece, sampling};
 
 use super::Localised;
 use super::hulls::{Interval, Projected, unite};
@@ -26,6 +26,9 @@ struct Found {
     line: Line,
     runs: Vec<Run>,
 }
+
+/// Keeps the places at which bodies are looked at apart from other random choices.
+const PURPOSE: u32 = 0xB0;
 
 /// Where to look for bodies.
 struct Place<'a> {
@@ -176,27 +179,27 @@ impl Localised {
             };
             let Some(hit) = hit else { continue };
             let known = pixel.table.known(cover.known);
-            if cover.face >= self.base && self.is_traced(hit.material) {
-                let spread = self.spread([column, row], cover, found, sight);
-                if !spread.is_empty() {
-                    let piece =
-                        |(part, hit)| Piece { column, share: (cover.share * part) as f32, hit, known };
-                    pieces.extend(spread.into_iter().map(piece));
-                    continue;
-                }
+            let spread = if cover.face >= self.base && self.samples > 1 {
+                self.spread([column, row], cover, found, sight)
+            } else {
+                Vec::new()
+            };
+            if spread.is_empty() {
+                pieces.push(Piece { column, share: cover.share as f32, hit, known, samples: 1 });
             }
-            pieces.push(Piece { column, share: cover.share as f32, hit, known });
+            for (number, (part, hit)) in (0..).zip(&spread) {
+                let samples = if number == 0 { spread.len() as u16 } else { 1 };
+                pieces.push(Piece { column, share: (cover.share * part) as f32, hit: *hit, known, samples });
+            }
         }
         at_most_one(&mut pieces[first..]);
     }
 
-    fn is_traced(&self, material: u32) -> bool {
-        self.traced.get(material as usize).copied().unwrap_or(false)
-    }
-
-    /// Hits on what shows of a body in a pixel, one for each line, with their parts of its share; the parts sum
-    /// to one. What a mirror or a clear body shows changes as fast as the scene does: each line looks at another
-    /// place of its covered length, by van der Corput's sequence, so that the places spread over the pixel.
+    /// Hits spread over what shows of a body in a pixel, with their parts of its share, which sum to one. What bodies
+    /// show has edges of its own: creases, shadows, all that mirrors and glass show.
+    ///
+    /// Points of Sobol's sequence, scrambled by the pixel, are laid over the strips, one below the other, so that equal
+    /// areas have equal numbers and the first few are spread over the pixel as well.
     fn spread(
         &self,
         [column, row]: [u32; 2],
@@ -206,24 +209,62 @@ impl Localised {
     ) -> Vec<(f64, Hit)> {
         let body = cover.face - self.base;
         let left = f64::from(column + self.scanline.margin);
+        let mut total = 0.0;
+        // With the area of all before it.
+        let strips: Vec<(f64, &Found, &Run)> = found
+            .iter()
+            .flat_map(|found| found.runs.iter().map(move |run| (found, run)))
+            .filter(|(_, run)| run.body == body)
+            .filter_map(|(found, run)| {
+                let area = (run.x[1].min(left + 1.0) - run.x[0].max(left)) * found.weight;
+                (area > 0.0).then(|| {
+                    total += area;
+                    (total - area, found, run)
+                })
+            })
+            .collect();
+        let own = seed(column, row, cover.face);
         let mut hits = Vec::new();
-        for (number, found) in (0u32..).zip(found) {
-            let place = f64::from(number.reverse_bits()) / 4_294_967_296.0 + 1.0 / 64.0;
-            for run in found.runs.iter().filter(|run| run.body == body) {
-                let [l, r] = [run.x[0].max(left), run.x[1].min(left + 1.0)];
-                let at = DVec2::new(l + (r - l) * place.fract(), found.y);
-                if r > l
-                    && let Some((distance, _)) = sight.meet(body, at.x, at.y)
-                {
-                    let mut hit = self.hit_at(body, at, distance);
-                    hit.place.seed = seed(column, row, cover.face) ^ number.wrapping_mul(0x9e37_79b9);
-                    hits.push(((r - l) * found.weight, hit));
-                }
+        for i in 0..self.samples {
+            let [across, down] = sampling::sobol(i, sampling::shift(own, PURPOSE));
+            let at = down * total;
+            let number = strips.partition_point(|(before, ..)| *before <= at);
+            let Some(&(before, found, run)) = strips.get(number.wrapping_sub(1)) else { break };
+            let end = strips.get(number).map_or(total, |(before, ..)| *before);
+            let along = (at - before) / (end - before);
+            if let Some((at, distance)) = self.sample(body, (found, run), left, [across, along], sight) {
+                let mut hit = self.hit_at(body, at, distance);
+                hit.place.seed = own ^ i.wrapping_mul(0x9e37_79b9);
+                hits.push(hit);
             }
         }
-        let all: f64 = hits.iter().map(|(part, _)| part).sum();
-        hits.iter_mut().for_each(|(part, _)| *part /= all);
-        hits
+        let part = (hits.len() as f64).recip();
+        let narrower = |hit: Hit| Hit { width: hit.width * part.sqrt() as f32, ..hit };
+        hits.into_iter().map(|hit| (part, narrower(hit))).collect()
+    }
+
+    /// Where a body is met in a strip, at shares of the way across and along what shows of it in the pixel from `left`
+    /// on; on the line itself where it is not met off it.
+    fn sample(
+        &self,
+        body: u32,
+        (found, run): (&Found, &Run),
+        left: f64,
+        [across, along]: [f64; 2],
+        sight: &mut Sight,
+    ) -> Option<(DVec2, f64)> {
+        let inside = |[l, r]: [f64; 2], y: f64| {
+            let (l, r) = (l.max(left), r.min(left + 1.0));
+            (l < r).then(|| DVec2::new(l + (r - l) * across, y))
+        };
+        let height = if self.scanline.grid.rule == Rule::Exact { found.weight } else { 0.0 };
+        let border = |[top, bottom]: [f64; 2]| top + (bottom - top) * along;
+        let off = inside(run.borders.map(border), found.y + (along - 0.5) * height);
+        let places = [off, inside(run.x, found.y)];
+        places.into_iter().flatten().find_map(|at| {
+            let (distance, _) = sight.meet(body, at.x, at.y)?;
+            Some((at, distance))
+        })
     }
 
     /// The hit on a body that is met at `distance` along the line through `at`.

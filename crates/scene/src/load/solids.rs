@@ -1,5 +1,7 @@
 //! `[[solid]]` tables: shapes, and set operations that refer to them by name.
 
+mod media;
+
 use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3};
@@ -83,8 +85,13 @@ pub(crate) fn add(
             let what = format!("with this solid there are more than {MOST_SHAPES} shapes");
             return Err(all.index(i).error(what));
         }
+        media::Media { all: &all, parts: &parts, materials: &draft.materials }.check(i)?;
         let grey = &mut || draft.grey();
-        let node = node(&all.index(i), &parts, i, &DAffine3::IDENTITY, None, grey)?;
+        let top = match &parts[i].operand {
+            Operand::Set(operation, _) => all.index(i).key(operation.key()),
+            Operand::Shape(..) => all.index(i),
+        };
+        let node = node(&top, &parts, i, &DAffine3::IDENTITY, None, grey)?;
         let name = table.name.clone().unwrap_or_else(|| format!("solid-{}", i + 1));
         draft.solids.push(Solid { name, node });
     }
