@@ -1,0 +1,30 @@
+//! What would a plane of this tilt receive from the whole sky?
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use light::{Illuminate, Spectrum, Uniform};
+
+use crate::Dome;
+
+/// What would a plane of this tilt receive from the whole sky?
+///
+/// Irradiance with nothing in the way, of every stage that answers for sky and ground together; the most that
+/// [`Illuminate::irradiance`] of a place with that normal may be. It depends on nothing but the normal.
+pub trait WholeSky: Illuminate {
+    /// Irradiance on the plane of unit `normal` with nothing in the way \[W m⁻² nm⁻¹\], never negative.
+    fn open_irradiance(&self, normal: Vec3) -> Spectrum;
+}
+
+/// The simplest: π times the radiance, for every plane.
+impl WholeSky for Uniform {
+    fn open_irradiance(&self, _: Vec3) -> Spectrum {
+        self.radiance * PI
+    }
+}
+
+impl WholeSky for Dome {
+    fn open_irradiance(&self, normal: Vec3) -> Spectrum {
+        Self::open_irradiance(self, normal)
+    }
+}
