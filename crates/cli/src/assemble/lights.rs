@@ -1,19 +1,19 @@
 //! Lights of the scene → sources of the pipeline.
 
-use glam::Vec3;
-use light::{AreaLight, AreaShape, Geometry, Luminaire, PointSource, Spectrum};
+use light::{AreaLight, AreaShape, Bodies, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
-use sky::{Conditions, Description, Dome, Model, Scale, Sun, atmosphere};
+use sky::{Sun, atmosphere};
 
+use super::heavens::{self, SKY};
 use crate::knobs::Settings;
 use crate::pipeline::Source;
-use crate::plan;
 
-/// Sun, sky, luminaires and luminous areas, in this order; what the scene lacks is left out.
-pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
+/// Sun, sky, luminaires and luminous areas, in this order; what the scene lacks is left out. `bodies` hide the sky, as
+/// meshes do.
+pub(super) fn sources(scene: &Scene, settings: &Settings, bodies: Option<&dyn Bodies>) -> Vec<Source> {
     let mut sources = Vec::new();
     sources.extend(sun(scene, settings));
-    sources.extend(sky(scene, settings));
+    sources.extend(heavens::sky(scene, settings, bodies));
     sources.extend(scene.lights.iter().map(|light| Source {
         name: light.name.clone(),
         light: Box::new(Luminaire {
@@ -39,7 +39,7 @@ pub(super) fn sources(scene: &Scene, settings: &Settings) -> Vec<Source> {
 /// built for it.
 pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
     let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some()));
-    let sky = model(scene, settings).map(|_| (SKY.to_owned(), false));
+    let sky = heavens::model(scene, settings).map(|_| (SKY.to_owned(), false));
     let points = scene.lights.iter().map(|light| (light.name.clone(), true));
     let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
     sun.into_iter().chain(sky).chain(points).chain(areas).collect()
@@ -76,7 +76,7 @@ fn colour(spectrum: &LightSpectrum) -> Spectrum {
 }
 
 /// The sun's beam facing it \[W m⁻² nm⁻¹\]: as stated, or what clear air lets through.
-fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
+pub(super) fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
     let own = atmosphere::direct_beam(sun.altitude, scene.site.elevation, atmosphere::CLEAR_TURBIDITY);
     let coloured = match &sun.spectrum {
         Some(spectrum) => colour(spectrum).of_luminance(own.luminance()),
@@ -91,7 +91,7 @@ fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
 }
 
 /// Whether any of the sun's disc is above the horizon.
-fn risen(sun: &scene::Sun) -> bool {
+pub(super) fn risen(sun: &scene::Sun) -> bool {
     sun.altitude > -0.5 * sun.diameter
 }
 
@@ -113,72 +113,6 @@ fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     })
 }
 
-/// The skies that there are.
-pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
-    Model::all().map(Model::name)
-}
-
-/// What the layer of the sky is called.
-const SKY: &str = "sky";
-
-fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
-    Model::named(plan::sky_model(scene, settings))
-}
-
-fn sky(scene: &Scene, settings: &Settings) -> Option<Source> {
-    let model = model(scene, settings)?;
-    // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
-    let sun = scene.sun.clone().or_else(|| scene.site.sun());
-    let sun = sun.as_ref();
-    let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
-    let shining = scene.sun.as_ref().filter(|sun| risen(sun));
-    let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
-    let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
-    let conditions = Conditions {
-        scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
-        elevation_m: scene.site.elevation,
-        ..Conditions::new(toward_sun)
-    };
-    let description = Description {
-        sun_horizontal,
-        albedo: settings.number("sky.albedo") as f32,
-        ground_height: match settings.choice("sky.ground") {
-            "open" => ground_height(&scene.geometry),
-            _ => None,
-        },
-        samples: settings.integer("sky.rays"),
-        ..Description::new(model.sky(&conditions))
-    };
-    Some(Source { name: SKY.to_owned(), light: Box::new(Dome::new(&description)), beam: false, point: None })
-}
-
-/// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground
-/// yet (pits, undersides); a per mille of the scene's height above it, so that the ground itself does not
-/// hide the ground's light.
-fn ground_height(geometry: &Geometry) -> Option<f32> {
-    let (low, high) = geometry.bounds()?;
-    let mut level: Vec<(f64, f64)> = Vec::new();
-    for (i, instance) in geometry.instances.iter().enumerate() {
-        for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
-            let triangle = geometry.triangle(i as u32, t as u32);
-            let cross = triangle.cross();
-            // Steeper than 45° is a wall, not ground.
-            if cross.y.abs() > 0.7 * cross.length() {
-                let [a, b, c] = triangle.0;
-                level.push(((a.y + b.y + c.y) / 3.0, cross.length()));
-            }
-        }
-    }
-    level.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let tenth = 0.1 * level.iter().map(|(_, area)| area).sum::<f64>();
-    let mut sum = 0.0;
-    let ground = level.iter().find(|(_, area)| {
-        sum += area;
-        sum >= tenth
-    });
-    ground.map(|(height, _)| (height + 1e-3 * (high.y - low.y)) as f32)
-}
-
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -198,7 +132,7 @@ mod tests {
         ] {
             let scene = scene::parse(&format!("{sky}{lamps}"), Path::new(""), Path::new("a.toml")).unwrap();
             let settings = Settings::preset(preset);
-            let built: Vec<_> = sources(&scene, &settings)
+            let built: Vec<_> = sources(&scene, &settings, None)
                 .into_iter()
                 .map(|source| (source.name, source.point.is_some()))
                 .collect();

@@ -1,0 +1,122 @@
+//! The sky of the scene → a source of the pipeline: which model, seen how, kept in maps or not.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use light::{Bodies, Geometry, Illuminate, Spectrum};
+use scene::Scene;
+use sky::map::{Described, Mapped};
+use sky::{BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, Scale, WholeSky};
+
+use super::lights::{beam, risen};
+use crate::knobs::Settings;
+use crate::pipeline::Source;
+use crate::plan;
+
+/// The skies that there are.
+pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
+    Model::all().map(Model::name)
+}
+
+/// What the layer of the sky is called.
+pub(super) const SKY: &str = "sky";
+
+pub(super) fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
+    Model::named(plan::sky_model(scene, settings))
+}
+
+pub(super) fn sky(scene: &Scene, settings: &Settings, bodies: Option<&dyn Bodies>) -> Option<Source> {
+    let description = describe(scene, settings, model(scene, settings)?);
+    let seen = seen(scene, settings, &description, bodies);
+    let light: Box<dyn Illuminate> = match settings.choice("sky.map") {
+        "on" => Box::new(mapped(scene, settings, seen)),
+        _ => Box::new(seen),
+    };
+    Some(Source { name: SKY.to_owned(), light, beam: false, point: None })
+}
+
+fn describe(scene: &Scene, settings: &Settings, model: Model) -> Description {
+    // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
+    let sun = scene.sun.clone().or_else(|| scene.site.sun());
+    let sun = sun.as_ref();
+    let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
+    let shining = scene.sun.as_ref().filter(|sun| risen(sun));
+    let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+    let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
+    let conditions = Conditions {
+        scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+        elevation_m: scene.site.elevation,
+        ..Conditions::new(toward_sun)
+    };
+    Description {
+        sun_horizontal,
+        albedo: settings.number("sky.albedo") as f32,
+        ground_height: match settings.choice("sky.ground") {
+            "open" => ground_height(&scene.geometry),
+            _ => None,
+        },
+        samples: settings.integer("sky.rays"),
+        ..Description::new(model.sky(&conditions))
+    }
+}
+
+/// How much of the sky a place sees: the cuboid, bands, or rays.
+fn seen(
+    scene: &Scene,
+    settings: &Settings,
+    description: &Description,
+    bodies: Option<&dyn Bodies>,
+) -> Arc<dyn WholeSky> {
+    match settings.choice("sky.visibility") {
+        "cuboid" => {
+            let division = Division {
+                elements: settings.integer("sky.elements"),
+                parts: settings.integer("sky.parts"),
+            };
+            Arc::new(CuboidSky::new(description, &scene.geometry, bodies, division))
+        }
+        "bands" => {
+            let bands = settings.integer("sky.bands");
+            Arc::new(BandSky::new(description, &scene.geometry, bodies, bands))
+        }
+        _ => Arc::new(Dome::new(description)),
+    }
+}
+
+/// Kept at points of every face.
+fn mapped(scene: &Scene, settings: &Settings, seen: Arc<dyn WholeSky>) -> Mapped {
+    let fineness = sky::map::Settings {
+        coarse: settings.number("sky.map.coarse") as f32,
+        least: settings.number("sky.map.least") as f32,
+        tolerance: settings.number("sky.map.tolerance") as f32,
+        ..sky::map::Settings::default()
+    };
+    Mapped::new(seen, Arc::clone(&scene.geometry), fineness, &Described::default())
+}
+
+/// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground
+/// yet (pits, undersides); a per mille of the scene's height above it, so that the ground itself does not
+/// hide the ground's light.
+fn ground_height(geometry: &Geometry) -> Option<f32> {
+    let (low, high) = geometry.bounds()?;
+    let mut level: Vec<(f64, f64)> = Vec::new();
+    for (i, instance) in geometry.instances.iter().enumerate() {
+        for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
+            let triangle = geometry.triangle(i as u32, t as u32);
+            let cross = triangle.cross();
+            // Steeper than 45° is a wall, not ground.
+            if cross.y.abs() > 0.7 * cross.length() {
+                let [a, b, c] = triangle.0;
+                level.push(((a.y + b.y + c.y) / 3.0, cross.length()));
+            }
+        }
+    }
+    level.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let tenth = 0.1 * level.iter().map(|(_, area)| area).sum::<f64>();
+    let mut sum = 0.0;
+    let ground = level.iter().find(|(_, area)| {
+        sum += area;
+        sum >= tenth
+    });
+    ground.map(|(height, _)| (height + 1e-3 * (high.y - low.y)) as f32)
+}
