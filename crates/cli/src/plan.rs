@@ -196,6 +196,21 @@ pub(crate) fn sky_model<'a>(scene: &'a Scene, settings: &'a Settings) -> &'a str
     }
 }
 
+/// How much of the sky places see is found how.
+fn sky_seen(settings: &Settings) -> String {
+    let by = match settings.choice("sky.visibility") {
+        "cuboid" => {
+            format!("a receiving cuboid of {} elements across its top", settings.choice("sky.elements"))
+        }
+        "bands" => format!("{} band sources", settings.choice("sky.bands")),
+        _ => format!("{} rays a place", settings.choice("sky.rays")),
+    };
+    match settings.choice("sky.map") {
+        "on" => format!("{by}, kept in maps"),
+        _ => by,
+    }
+}
+
 /// How many materials let light through.
 fn transparent(scene: &Scene) -> usize {
     scene.materials.iter().filter(|material| material.medium().is_some()).count()
@@ -236,11 +251,7 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
     };
     let sky = match sky_model(scene, settings) {
         "none" => stage("illuminate", "", "no sky: none is asked for".to_owned()),
-        model => stage(
-            "illuminate",
-            &format!("sky {model}"),
-            format!("{} rays a place", settings.choice("sky.rays")),
-        ),
+        model => stage("illuminate", &format!("sky {model}"), sky_seen(settings)),
     };
     let lamps = lamps(scene, settings);
     let faces = settings.choice("accelerate");

@@ -1,6 +1,7 @@
 //! What arrives at this place, from where?
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use glam::Vec3;
 
@@ -70,6 +71,27 @@ pub trait Illuminate: Send + Sync {
         let mut sum = Spectrum::ZERO;
         self.arrivals(place, occlude, &mut |arrival| sum += arrival.on_plane(place.normal));
         sum
+    }
+}
+
+/// A shared source is a source.
+impl<T: Illuminate + ?Sized> Illuminate for Arc<T> {
+    fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival)) {
+        (**self).arrivals(place, occlude, receive);
+    }
+
+    fn arrivals_on(
+        &self,
+        face: [u32; 2],
+        place: &Place,
+        occlude: &dyn Occlude,
+        receive: &mut dyn FnMut(Arrival),
+    ) {
+        (**self).arrivals_on(face, place, occlude, receive);
+    }
+
+    fn radiance(&self, ray: &Ray) -> Spectrum {
+        (**self).radiance(ray)
     }
 }
 

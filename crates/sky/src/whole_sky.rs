@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use light::{Illuminate, Spectrum, Uniform};
 
-use crate::Dome;
+use crate::{BandSky, CuboidSky, Dome};
 
 /// What would a plane of this tilt receive from the whole sky?
 ///
@@ -24,6 +24,18 @@ impl WholeSky for Uniform {
 }
 
 impl WholeSky for Dome {
+    fn open_irradiance(&self, normal: Vec3) -> Spectrum {
+        Self::open_irradiance(self, normal)
+    }
+}
+
+impl WholeSky for CuboidSky {
+    fn open_irradiance(&self, normal: Vec3) -> Spectrum {
+        Self::open_irradiance(self, normal)
+    }
+}
+
+impl WholeSky for BandSky {
     fn open_irradiance(&self, normal: Vec3) -> Spectrum {
         Self::open_irradiance(self, normal)
     }

@@ -69,10 +69,8 @@ fn seen(
 ) -> Arc<dyn WholeSky> {
     match settings.choice("sky.visibility") {
         "cuboid" => {
-            let division = Division {
-                elements: settings.integer("sky.elements"),
-                parts: settings.integer("sky.parts"),
-            };
+            let division =
+                Division { elements: settings.integer("sky.elements"), parts: settings.integer("sky.parts") };
             Arc::new(CuboidSky::new(description, &scene.geometry, bodies, division))
         }
         "bands" => {

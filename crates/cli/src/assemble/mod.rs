@@ -1,5 +1,6 @@
 //! Plan and scene → pipeline: the only place that names chapters.
 
+mod heavens;
 mod lights;
 mod materials;
 mod solids;
@@ -17,7 +18,8 @@ use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
 
-pub(crate) use lights::{outline, skies};
+pub(crate) use heavens::skies;
+pub(crate) use lights::outline;
 pub(crate) use materials::mirrors;
 
 /// Builds the stages that `plan` names for `scene`.
@@ -30,7 +32,8 @@ pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
     let (solids, mut more) =
         solids::bodies(scene)?.map_or((None, Vec::new()), |dressed| (Some(dressed.solids), dressed.shaders));
     let traced = Traced::of(scene, plan, solids);
-    let sources = lights::sources(scene, settings);
+    let bodies = traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
+    let sources = lights::sources(scene, settings, bodies);
     let occlude = Arc::new(Product(match settings.choice("shadows") {
         "off" => Vec::new(),
         _ => traced.occlude(),
