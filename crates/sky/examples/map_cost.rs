@@ -111,6 +111,14 @@ fn rms(found: &[f32], truth: &[f32], open: f32) -> f64 {
     100.0 * (square / truth.len() as f64).sqrt()
 }
 
+/// The least of three: other programs on the machine only add.
+fn least_seconds<T>(work: impl Fn() -> T) -> (f64, T) {
+    [(); 2].iter().fold(seconds(&work), |best, ()| {
+        let next = seconds(&work);
+        if next.0 < best.0 { next } else { best }
+    })
+}
+
 fn seconds<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let result = work();
@@ -130,13 +138,13 @@ fn main() {
         {
             let inner = sky(name, 40.0, samples);
             let open = inner.open_irradiance(Vec3::Y).luminance();
-            let (direct_s, direct) = seconds(|| lit(&*inner, &few, &boxes));
+            let (direct_s, direct) = least_seconds(|| lit(&*inner, &few, &boxes));
             let direct = rms(&direct, &truth, open);
             let settings = Settings { tolerance, least, ..Settings::default() };
             let map = Mapped::new(inner, Arc::clone(&geometry), settings, &Described::default());
             let (made_s, ()) = seconds(|| map.prepare(&boxes, &[Side::Front]));
             let [_, points, bytes] = map.size();
-            let (lookup_s, _) = seconds(|| lit(&map, &many, &boxes));
+            let (lookup_s, _) = least_seconds(|| lit(&map, &many, &boxes));
             println!(
                 "{name:8} {samples:7} {tolerance:9} {least:5} | {points:6} {made_s:5.2} s {:7.0} B    | {:9.0} {:8.0} | {:.2} %, {direct:.2} %",
                 bytes as f64 / points as f64,

@@ -170,6 +170,9 @@ impl Mapped {
 
     /// Takes over what [`Self::to_bytes`] of a map with the same geometry and settings has made: all of it under the
     /// same sky, else its cells alone. A face that is made already stays.
+    ///
+    /// Known cells keep the mesh still while the sun moves, but spare nothing: all that was asked to find them is
+    /// among their points.
     pub fn recall(&mut self, bytes: &[u8]) -> Result<Recalled, KeptError> {
         let (key, faces) = kept::read(bytes, 2 * self.faces.len())?;
         if key.places != self.key.places {
