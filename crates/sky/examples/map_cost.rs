@@ -17,7 +17,7 @@ use light::{Arrival, Geometry, Illuminate, Instance, Mesh, Occlude, Place, Ray, 
 const WIDTH: f32 = 60.0;
 const PLACES: u32 = 20_000;
 /// Places whose truth is found.
-const TRUE_PLACES: u32 = 2_000;
+const TRUE_PLACES: u32 = 1_000;
 
 /// Upright boxes: lower and upper corner.
 struct Boxes(Vec<[Vec3; 2]>);
@@ -111,6 +111,14 @@ fn rms(found: &[f32], truth: &[f32], open: f32) -> f64 {
     100.0 * (square / truth.len() as f64).sqrt()
 }
 
+/// The least of three: other programs on the machine only add.
+fn least_seconds<T>(work: impl Fn() -> T) -> (f64, T) {
+    [(); 2].iter().fold(seconds(&work), |best, ()| {
+        let next = seconds(&work);
+        if next.0 < best.0 { next } else { best }
+    })
+}
+
 fn seconds<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let result = work();
@@ -126,17 +134,17 @@ fn main() {
     for name in ["overcast", "clear"] {
         let truth = lit(&*sky(name, 40.0, 4096), &few, &boxes);
         for (samples, tolerance, least) in
-            [(64, 0.05, 0.5), (64, 0.02, 0.25), (256, 0.05, 0.5), (256, 0.02, 0.25), (1024, 0.01, 0.25)]
+            [(64, 0.05, 0.5), (64, 0.02, 0.25), (256, 0.05, 0.5), (256, 0.02, 0.25), (256, 0.02, 0.125)]
         {
             let inner = sky(name, 40.0, samples);
             let open = inner.open_irradiance(Vec3::Y).luminance();
-            let (direct_s, _) = seconds(|| lit(&*inner, &few, &boxes));
-            let direct = rms(&lit(&*inner, &few, &boxes), &truth, open);
+            let (direct_s, direct) = least_seconds(|| lit(&*inner, &few, &boxes));
+            let direct = rms(&direct, &truth, open);
             let settings = Settings { tolerance, least, ..Settings::default() };
             let map = Mapped::new(inner, Arc::clone(&geometry), settings, &Described::default());
             let (made_s, ()) = seconds(|| map.prepare(&boxes, &[Side::Front]));
             let [_, points, bytes] = map.size();
-            let (lookup_s, _) = seconds(|| lit(&map, &many, &boxes));
+            let (lookup_s, _) = least_seconds(|| lit(&map, &many, &boxes));
             println!(
                 "{name:8} {samples:7} {tolerance:9} {least:5} | {points:6} {made_s:5.2} s {:7.0} B    | {:9.0} {:8.0} | {:.2} %, {direct:.2} %",
                 bytes as f64 / points as f64,

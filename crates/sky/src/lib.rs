@@ -7,7 +7,8 @@
 //! chosen by name ([`Model`]): light scattered by a round atmosphere of molecules, aerosol and ozone ([`AirSky`]; the thesis'
 //! own single scattering among them), or a distribution of luminance ([`Distribution`]: uniform, overcast, the
 //! CIE's of 1973, the fifteen of ISO 15469, Perez' all-weather sky, measured ones) with a colour ([`Luminous`]); any of
-//! them may be scaled ([`Scale`]).
+//! them may be scaled ([`Scale`]). Whatever answers for the whole sky at once ([`WholeSky`]) may be kept at points of
+//! every face and looked up there ([`map`]).
 //!
 //! **Leaves out.** Where the sun stands at a date and place; clouds with a shape; the sun's darker limb;
 //! refraction; water vapour and oxygen; polarisation; moon and stars.

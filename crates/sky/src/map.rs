@@ -1,5 +1,6 @@
 //! Illuminance maps: the light of the sky kept at points of every face (thesis 4.4).
 
+mod buried;
 mod kept;
 mod key;
 mod point;
@@ -57,8 +58,9 @@ pub enum Recalled {
 /// *Made when asked for* first, from the face alone: results do not depend on who asks when, as long as all ask with
 /// the same occluder. That is not looked at again.
 ///
-/// *Errors.* Points hidden inside of what stands on the face are dark, and darken the last cell beside it: a rim as
-/// wide as `least`. What lies wholly between points of `coarse` is missed. Twisted normals count as if what
+/// *Errors.* Points inside of what stands on a face, at which nothing at all arrives, take the mean of their lit
+/// neighbours; so do wholly dark ones beyond a wall thinner than a cell, which shows as a strip of light as wide as
+/// `least`. What lies wholly between points of `coarse` is missed. Twisted normals count as if what
 /// hides the sky hid the same share of it for them.
 ///
 /// ```
@@ -168,6 +170,9 @@ impl Mapped {
 
     /// Takes over what [`Self::to_bytes`] of a map with the same geometry and settings has made: all of it under the
     /// same sky, else its cells alone. A face that is made already stays.
+    ///
+    /// Known cells keep the mesh still while the sun moves, but spare nothing: all that was asked to find them is
+    /// among their points.
     pub fn recall(&mut self, bytes: &[u8]) -> Result<Recalled, KeptError> {
         let (key, faces) = kept::read(bytes, 2 * self.faces.len())?;
         if key.places != self.key.places {
@@ -205,13 +210,14 @@ impl Mapped {
         self.faces[slot / 2][slot % 2].get_or_init(|| {
             let [instance, triangle] = on.face;
             let seams = &self.seams[self.geometry.instances[instance as usize].mesh as usize];
+            let world = self.geometry.triangle(instance, triangle);
             let mut value = |at| self.value(Point::of(seams, triangle, at), on, occlude);
-            Box::new(match self.plans.get(&slot) {
+            let mut map = match self.plans.get(&slot) {
                 Some((nodes, points)) => refine::revalue(nodes, *points, &mut value),
-                None => {
-                    refine::refine(&self.geometry.triangle(instance, triangle), &self.settings, &mut value)
-                }
-            })
+                None => refine::refine(&world, &self.settings, &mut value),
+            };
+            buried::fill(&mut map, &world, self.settings.least, seams.shared(triangle));
+            Box::new(map)
         })
     }
 

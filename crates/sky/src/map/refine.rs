@@ -6,7 +6,7 @@ use glam::DVec2;
 use light::{Spectrum, Triangle};
 
 use super::Settings;
-use super::tree::{FaceMap, LEAF, MOST_POINTS, Node, cut, parts, uncut};
+use super::tree::{FaceMap, LEAF, MOST_POINTS, Node, cut, layout, parts};
 
 /// Halvings of an edge for its length alone: 64 pieces.
 const BASE_HALVINGS: u8 = 6;
@@ -63,19 +63,7 @@ pub(crate) fn refine(
 
 /// The mesh with the cells of `nodes`, whose `count` points get new values.
 pub(crate) fn revalue(nodes: &[Node], count: usize, value: &mut dyn FnMut(DVec2) -> Spectrum) -> FaceMap {
-    let mut points = vec![DVec2::ZERO; count];
-    points[..3].copy_from_slice(&[DVec2::ZERO, DVec2::X, DVec2::Y]);
-    let mut cells = vec![[0, 1, 2]];
-    for node in nodes {
-        let Some(corners) = cells.pop() else { break };
-        if node.cut != LEAF {
-            let (apex, middle) = uncut(node.cut);
-            let [b, c] = [1, 2].map(|k| points[corners[(apex + k) % 3] as usize]);
-            points[middle as usize] = (b + c) * 0.5;
-            let [one, other] = parts(corners, apex, middle);
-            cells.extend([other, one]);
-        }
-    }
+    let (points, _) = layout(nodes, count);
     FaceMap { values: points.into_iter().map(value).collect(), nodes: nodes.into() }
 }
 

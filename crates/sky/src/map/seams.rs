@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use glam::{DVec3, Vec3};
 use light::Mesh;
 
+use super::buried::Shared;
+
 /// Faces without normals of their own go on into each other where they lie in one plane: cosine of 1.4·10⁻³ rad,
 /// some hundred times what f32 corners leave of the flatness of a well-shaped quadrilateral.
 const ONE_PLANE: f64 = 1.0 - 1e-6;
@@ -40,6 +42,12 @@ impl Seams {
         let edges =
             (0..shapes.len()).map(|t| [0, 1, 2].map(|k| edge_owner(&shapes, &partners, t, k))).collect();
         Self { corners: corner_owners(&shapes, &partners), edges }
+    }
+
+    /// What of a triangle others have too.
+    pub(crate) fn shared(&self, triangle: u32) -> Shared {
+        let parts = |of: &[[Owner; 3]]| of[triangle as usize].map(|owner| owner.shared);
+        Shared { edges: parts(&self.edges), corners: parts(&self.corners) }
     }
 }
 

@@ -1,6 +1,12 @@
 //! How fine a map is.
 
 /// How fine a map is.
+///
+/// On a lawn of 60 m with 40 boxes and 256 directions at each point, tolerance 0.05 with `least` 0.5 m, 0.02 with
+/// 0.25 m and 0.02 with 0.125 m leave 2.0, 1.0 and 0.8 % of the open sky's light (root mean square over the lawn; 0.7 %
+/// without a map) with 3 700, 11 000 and 20 000 points under an overcast sky, about the same under a clear one; with
+/// 64 directions the first two leave 2.6 and 2.0 %, no map 2.0 %. The example `map_cost` measures it. A point takes 64
+/// bytes with its cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Edges of cells are no longer \[m\], but for faces longer than 64 times that. Things that change the light

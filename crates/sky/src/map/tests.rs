@@ -99,9 +99,16 @@ fn share(map: &Mapped, face: [u32; 2], position: Vec3, normal: Vec3) -> f32 {
     ask(map, face, position, normal)[0] / open(normal)[0]
 }
 
-/// A value that no simple mesh expects: waves, a step and a slit.
+/// A value that no simple mesh expects: waves, a step, and something dark that stands there.
 fn wild(position: Vec3, _: Vec3) -> f32 {
     let p = position * 1.3;
     let wave = 0.5 + 0.3 * (1.1 * p.x + 0.4 * p.z).sin() * (0.6 * p.z - p.y).cos();
-    if p.x + 0.4 * p.z > 1.7 { wave * 0.5 } else { wave }
+    let dark = (p.x - 2.2).abs() < 0.7 && (p.z - 1.9).abs() < 0.9;
+    if dark {
+        0.0
+    } else if p.x + 0.4 * p.z > 1.7 {
+        wave * 0.5
+    } else {
+        wave
+    }
 }

@@ -1,5 +1,6 @@
 //! The mesh of one face: a tree of bisected triangles, and values between its points.
 
+use glam::DVec2;
 use light::Spectrum;
 
 /// Marks a cell that is not cut.
@@ -32,6 +33,27 @@ pub(crate) const MOST_POINTS: u32 = (1 << 30) - 1;
 pub(crate) fn parts<T: Copy>(corners: [T; 3], apex: usize, middle: T) -> [[T; 3]; 2] {
     let [a, b, c] = [apex, apex + 1, apex + 2].map(|k| corners[k % 3]);
     [[a, b, middle], [a, middle, c]]
+}
+
+/// Where the `count` points of a tree in preorder are (weights of the face's second and third corner), and the corners
+/// of its cells that are not cut.
+pub(crate) fn layout(nodes: &[Node], count: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let mut points = vec![DVec2::ZERO; count];
+    points[..3].copy_from_slice(&[DVec2::ZERO, DVec2::X, DVec2::Y]);
+    let (mut cells, mut leaves) = (vec![[0, 1, 2]], Vec::new());
+    for node in nodes {
+        let Some(corners) = cells.pop() else { break };
+        if node.cut == LEAF {
+            leaves.push(corners);
+            continue;
+        }
+        let (apex, middle) = uncut(node.cut);
+        let [b, c] = [1, 2].map(|k| points[corners[(apex + k) % 3] as usize]);
+        points[middle as usize] = (b + c) * 0.5;
+        let [one, other] = parts(corners, apex, middle);
+        cells.extend([other, one]);
+    }
+    (points, leaves)
 }
 
 /// The mesh of one side of a face with its values: shares of the open sky's irradiance, within \[0, 1\].
