@@ -69,14 +69,11 @@ impl BandSky {
         bodies: Option<&dyn Bodies>,
         count: u32,
     ) -> Self {
-        let obstacles = |wanted: fn(&light::Mesh) -> bool, bodies| {
-            Obstacles::new(geometry, DMat3::IDENTITY, wanted, bodies)
-        };
         Self {
             around: Surround::new(description, &OpenSky::new(&*description.sky)),
             count: count.clamp(1, 1 << 16) as usize,
-            solid: obstacles(|mesh| !is_soft(mesh), None),
-            soft: obstacles(is_soft, bodies),
+            solid: Obstacles::new(geometry, |mesh| !is_soft(mesh), None),
+            soft: Obstacles::new(geometry, is_soft, bodies),
             tables: Lru::new(TABLES),
         }
     }
@@ -105,8 +102,9 @@ impl BandSky {
         let floor = self.around.fall(place).map_or(f64::NEG_INFINITY, |fall| -f64::from(fall) - rise);
         // Rounding of what was computed in the world's coordinates.
         let error = f64::from(place.error) + 8.0 * f64::EPSILON * origin.abs().max_element();
-        let mut shadows = Shadows::new(plane_from_world(place.normal), self.count, floor, error);
-        obstacles.walk(origin, &mut shadows);
+        let frame = plane_from_world(place.normal);
+        let mut shadows = Shadows::new(frame * DVec3::Y, self.count, floor, error);
+        obstacles.walk(frame, origin, &mut shadows);
         shadows.sorted()
     }
 }
