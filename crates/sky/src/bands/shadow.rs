@@ -61,7 +61,7 @@ impl Shadows {
         let at = |cosine: f64, slack: f64| 0.5 * ((cosine + 1.0) * count - 1.0) + slack;
         let first = at(low, -1e-6).ceil().max(0.0);
         let last = at(high, 1e-6).floor().min(count - 1.0);
-        (first <= last).then(|| [first as usize, last as usize])
+        (first <= last).then_some([first as usize, last as usize])
     }
 
     /// Adds what a convex polygon, in the plane's coordinates, hides.

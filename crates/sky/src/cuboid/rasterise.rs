@@ -239,5 +239,5 @@ fn columns(face: &Face, side: usize, low: f64, high: f64) -> Option<[usize; 2]> 
     let at = |slope: f64| (slope * face.distance + face.half[side]) * scale - 0.5;
     let first = (at(low) - SLACK).ceil().max(0.0);
     let last = (at(high) + SLACK).floor().min(count - 1.0);
-    (first <= last).then(|| [first as usize, last as usize])
+    (first <= last).then_some([first as usize, last as usize])
 }

@@ -54,8 +54,7 @@ pub(crate) fn is_edge_on(corners: &[DVec3; 3], error: f64) -> bool {
     let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
     let near = error + 8.0 * f64::EPSILON * reach;
     let distance = a.dot(across);
-    // Also where something is not a number.
-    !(distance * distance > near * near * across.length_squared())
+    !distance.is_finite() || distance * distance <= near * near * across.length_squared()
 }
 
 impl Part {
