@@ -1,7 +1,6 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use glam::DMat3;
 use light::{Uniform, Vacuum};
 use proptest::prelude::*;
 
