@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::table::middle;
-use crate::obstacles::{Bounds, Visit, above, is_edge_on};
+use crate::obstacles::{Bounds, Oriented, Visit, above, is_edge_on};
 
 /// A stretch of a band's half circle \[rad\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,9 +25,8 @@ impl Interval {
 
 /// Collects them around one place.
 pub(crate) struct Shadows {
-    plane_from_world: DMat3,
-    /// The same, each number without its sign: how far a box reaches along the plane's axes.
-    spread: DMat3,
+    /// Upwards, in the plane's coordinates.
+    up: DVec3,
     middles: Vec<DVec3>,
     floor: f64,
     error: f64,
@@ -35,11 +34,9 @@ pub(crate) struct Shadows {
 }
 
 impl Shadows {
-    pub(crate) fn new(plane_from_world: DMat3, count: usize, floor: f64, error: f64) -> Self {
-        let m = plane_from_world;
+    pub(crate) fn new(up: DVec3, count: usize, floor: f64, error: f64) -> Self {
         Self {
-            plane_from_world: m,
-            spread: DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs()),
+            up,
             middles: (0..count).map(|band| middle(band, count)).collect(),
             floor,
             error,
@@ -64,7 +61,7 @@ impl Shadows {
         let at = |cosine: f64, slack: f64| 0.5 * ((cosine + 1.0) * count - 1.0) + slack;
         let first = at(low, -1e-6).ceil().max(0.0);
         let last = at(high, 1e-6).floor().min(count - 1.0);
-        (first <= last).then(|| [first as usize, last as usize])
+        (first <= last).then_some([first as usize, last as usize])
     }
 
     /// Adds what a convex polygon, in the plane's coordinates, hides.
@@ -117,26 +114,21 @@ fn cut(polygon: &[DVec3], middle: DVec3) -> Option<[f64; 2]> {
 }
 
 impl Visit for Shadows {
-    fn wants(&mut self, bounds: &Bounds) -> bool {
-        if bounds.high.y <= self.floor {
-            return false;
-        }
-        let middle = self.plane_from_world * (0.5 * (bounds.low + bounds.high));
-        let reach = self.spread * (0.5 * (bounds.high - bounds.low));
-        let (low, high) = (middle - reach, middle + reach);
-        high.z > 0.0 && self.bands([low.y, high.y], [low.z, high.z]).is_some()
+    fn wants(&mut self, bounds: &Bounds, solid: &Oriented) -> bool {
+        let Bounds { low, high } = bounds;
+        solid.most(self.up) > self.floor
+            && high.z > 0.0
+            && self.bands([low.y, high.y], [low.z, high.z]).is_some()
     }
 
     fn triangle(&mut self, corners: [DVec3; 3]) {
         if is_edge_on(&corners, self.error) {
             return;
         }
-        let (polygon, count) = if corners.iter().all(|corner| corner.y >= self.floor) {
-            ([corners[0], corners[1], corners[2], DVec3::ZERO], 3)
-        } else {
-            above(corners, DVec3::Y, self.floor)
-        };
-        let polygon = polygon.map(|corner| self.plane_from_world * corner);
+        if corners.iter().all(|&corner| self.up.dot(corner) >= self.floor) {
+            return self.hide(&corners);
+        }
+        let (polygon, count) = above(corners, self.up, self.floor);
         self.hide(&polygon[..count]);
     }
 }

@@ -34,13 +34,14 @@ fn a_street_and_a_town_have_what_very_many_rays_find() {
     let normals = [Vec3::Y, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.6, 0.8, 0.0)];
     let mut squares = [0.0; 2];
     for geometry in [canyon(), town(20, 40.0, 11)] {
+        let plain = Plain::new(&geometry);
         for (altitude, distribution) in [(90.0, Distribution::MoonSpencer), (35.0, Distribution::CIE_CLEAR)] {
             let description = Description { samples: 4096, ..luminous(distribution, altitude) };
             let dome = Dome::new(&description);
             let skies = [10, 40].map(|count| BandSky::new(&description, &geometry, None, count));
             for (i, normal) in normals.into_iter().cycle().take(8).enumerate() {
                 let at = place(Vec3::new(1.3, if i < 4 { 0.0 } else { 3.0 }, 0.7), normal);
-                let truth = dome.irradiance(&at, &Plain(&geometry)).luminance();
+                let truth = dome.irradiance(&at, &plain).luminance();
                 let open = dome.open_irradiance(at.normal).luminance();
                 for (sky, square) in skies.iter().zip(&mut squares) {
                     let error = (sky.irradiance(&at, &Vacuum).luminance() - truth).abs();
@@ -87,7 +88,7 @@ fn stretches_are_those_of_a_look_at_every_triangle() {
                 let alpha = sin.atan2(cos);
                 let mut own = hidden.iter().filter(|interval| interval.band as usize == band);
                 let ours = own.any(|interval| interval.from <= alpha && alpha <= interval.to);
-                // Two ways of computing in f64; 1e-9 leaves room for normals of f32, which are not quite of length 1.
+                // Two ways of computing, and normals of f32, which are not quite of length 1.
                 match meets(&geometry, (origin, f64::from(at.error)), direction, floor, 1e-6) {
                     0 => {}
                     sign => {

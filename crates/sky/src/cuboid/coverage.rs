@@ -151,13 +151,13 @@ mod tests {
                 plain[row][from..=to].fill(true);
             }
             let mut open = Coverage::new(size);
-            for row in 0..size[1] {
-                for column in 0..size[0] {
-                    prop_assert_eq!(coverage.is_covered([column, row]), plain[row][column]);
+            for (row, plain) in plain.iter().enumerate() {
+                for (column, &set) in plain.iter().enumerate() {
+                    prop_assert_eq!(coverage.is_covered([column, row]), set);
                 }
                 let mut seen = vec![true; size[0]];
                 coverage.open_runs(row, |from, to| seen[from..to].fill(false));
-                prop_assert_eq!(&seen, &plain[row]);
+                prop_assert_eq!(&seen, plain);
             }
             prop_assert_eq!(coverage.open(), plain.iter().flatten().filter(|set| !**set).count());
             for [a, b, c, d] in asked {

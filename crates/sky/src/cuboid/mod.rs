@@ -1,6 +1,7 @@
 //! The sky's light by a receiving cuboid (thesis 4.3).
 
 mod coverage;
+mod front;
 mod layout;
 mod optimum;
 mod rasterise;
@@ -15,6 +16,7 @@ pub use layout::{Element, Face, Layout};
 pub use optimum::Optimum;
 pub use rasterise::{Drawing, Rasterise, Things, Viewpoint};
 
+use front::{hide_behind, known};
 pub(crate) use rasterise::is_soft;
 use sums::{Flux, Sums, on_plane};
 
@@ -34,7 +36,8 @@ pub struct Division {
     /// nearly in proportion. The bench `cuboid` lists more.
     pub elements: u32,
     /// Parts k ≥ 1 across an element of which each is drawn by itself: k² bits an element. 1 = the thesis' own. n with k × k parts
-    /// leaves what k n leaves and takes about as long, but asks the sky less and needs less memory (200 bytes an element).
+    /// leaves nearly what k n leaves and takes up to twice as long, but asks the sky less and needs less memory (200 bytes an
+    /// element).
     pub parts: u32,
 }
 
@@ -85,10 +88,6 @@ pub struct CuboidSky {
     rasterise: Box<dyn Rasterise>,
     has_soft: bool,
 }
-
-/// A direction's cosine to the plane below which (scaled by its distance to the cuboid, ≤ 3) it counts as behind it: more than
-/// the rounding of a normal in f32.
-const BEHIND: f64 = 2e-6;
 
 impl CuboidSky {
     /// The sky that `description` describes (its `samples` do not matter) among the things of `geometry` and `bodies`, drawn by the
@@ -225,40 +224,6 @@ impl CuboidSky {
                     .then(|| (direction.normalize().as_vec3().normalize(), on_plane(&flux, normal) * share))
             })
         })
-    }
-}
-
-/// A face in k × k parts to an element, with those elements covered that are `dark`.
-fn known(face: &Face, parts: usize, dark: impl Fn([usize; 2]) -> bool) -> Coverage {
-    let mut bits = Coverage::new(face.count.map(|count| count * parts));
-    for [column, row] in face.cells().filter(|&cell| dark(cell)) {
-        let first = column * parts;
-        (0..parts).for_each(|part| bits.cover(row * parts + part, first, first + parts - 1));
-    }
-    bits
-}
-
-/// Covers what lies behind the plane of a normal in the cuboid's frame: D · n ≤ [`BEHIND`], linear along a row.
-fn hide_behind(face: &Face, bits: &mut Coverage, toward: DVec3) {
-    let [columns, rows] = bits.size();
-    let fine = Face { count: [columns, rows], ..*face };
-    let cosine =
-        |column: usize, row: usize| fine.point([column as f64 + 0.5, row as f64 + 0.5]).dot(toward) - BEHIND;
-    for row in 0..rows {
-        let (first, last) = (cosine(0, row), cosine(columns - 1, row));
-        match (first > 0.0, last > 0.0) {
-            (true, true) => {}
-            (false, false) => bits.cover(row, 0, columns - 1),
-            (rises, _) => {
-                // The columns at least from which, or up to which, it is positive.
-                let zero = first / (first - last) * (columns - 1) as f64;
-                if rises {
-                    bits.cover(row, (zero.ceil() as usize).min(columns - 1), columns - 1);
-                } else {
-                    bits.cover(row, 0, (zero.floor() as usize).min(columns - 1));
-                }
-            }
-        }
     }
 }
 

@@ -5,7 +5,7 @@ use light::{Bodies, Geometry, Mesh};
 
 use super::coverage::Coverage;
 use super::layout::{Face, Layout};
-use crate::obstacles::{Bounds, Obstacles, Visit, above, is_edge_on};
+use crate::obstacles::{Bounds, Obstacles, Oriented, Visit, above, is_edge_on};
 
 /// What is looked at from a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,13 +61,12 @@ pub struct Drawing {
 impl Drawing {
     /// The scene, to be drawn in a layout of k × k parts to an element.
     pub fn new(layout: &Layout, parts: u32, geometry: &Geometry, bodies: Option<&dyn Bodies>) -> Self {
-        let frame = layout.frame_from_world();
         let parts = parts.max(1) as usize;
         Self {
             faces: layout.faces().map(|face| Face { count: face.count.map(|count| count * parts), ..face }),
-            frame_from_world: frame,
-            solid: Obstacles::new(geometry, frame, |mesh| !is_soft(mesh), None),
-            soft: Obstacles::new(geometry, frame, is_soft, bodies),
+            frame_from_world: layout.frame_from_world(),
+            solid: Obstacles::new(geometry, |mesh| !is_soft(mesh), None),
+            soft: Obstacles::new(geometry, is_soft, bodies),
         }
     }
 }
@@ -90,7 +89,7 @@ impl Rasterise for Drawing {
         let normal = self.frame_from_world * view.normal.as_dvec3();
         let Viewpoint { floor, error, .. } = *view;
         let mut pen = Pen { faces: &self.faces, up, normal, floor, error, bits };
-        obstacles.walk(self.frame_from_world * view.origin, &mut pen);
+        obstacles.walk(self.frame_from_world, view.origin, &mut pen);
     }
 }
 
@@ -105,14 +104,16 @@ struct Pen<'a> {
 }
 
 impl Visit for Pen<'_> {
-    fn wants(&mut self, bounds: &Bounds) -> bool {
-        bounds.most(self.normal) > 0.0
-            && bounds.most(self.up) > self.floor
-            && self
-                .faces
-                .iter()
-                .zip(&*self.bits)
-                .any(|(face, bits)| reach(face, bounds).is_some_and(|[x, y]| !bits.all_covered(x, y)))
+    fn wants(&mut self, bounds: &Bounds, solid: &Oriented) -> bool {
+        if solid.most(self.normal) <= 0.0 || solid.most(self.up) <= self.floor {
+            return false;
+        }
+        let open = |face: &Face, bits: &Coverage, around: &[DVec3]| {
+            reach(face, bounds, around).is_some_and(|[x, y]| !bits.all_covered(x, y))
+        };
+        let mut faces = self.faces.iter().zip(&*self.bits);
+        // The box along the axes first: its corners cost more to look at.
+        faces.any(|(face, bits)| open(face, bits, &[]) && open(face, bits, &solid.corners()))
     }
 
     fn triangle(&mut self, corners: [DVec3; 3]) {
@@ -140,7 +141,7 @@ impl Pen<'_> {
         let inward = edges.map(|edge| edge * volume.signum());
         let bounds = Bounds { low: a.min(b).min(c), high: a.max(b).max(c) };
         for (face, bits) in self.faces.iter().zip(&mut *self.bits) {
-            if let Some([x, y]) = reach_of_triangle(face, &bounds, &corners)
+            if let Some([x, y]) = reach(face, &bounds, &corners)
                 && !bits.all_covered(x, y)
             {
                 fill(face, bits, &inward, x, y);
@@ -202,16 +203,24 @@ impl Line {
 /// Rounding of a bound in elements: far more than it is, far less than an element.
 const SLACK: f64 = 1e-6;
 
-/// The elements of `face` whose middles a box may cover; none when there are none.
-fn reach(face: &Face, bounds: &Bounds) -> Option<Rectangle> {
+/// The elements of `face` whose middles may be covered by what has these bounds and is the convex hull of `around`; none
+/// when there are none. Without points the bounds alone decide, as they do where a point is behind the centre.
+fn reach(face: &Face, bounds: &Bounds, around: &[DVec3]) -> Option<Rectangle> {
     let (low, high) = (bounds.low[face.axis] * face.sign, bounds.high[face.axis] * face.sign);
     let (near, far) = (low.min(high), low.max(high));
-    // A box that only touches the plane of the centre reaches nothing of the face at all.
+    // What only touches the plane of the centre reaches nothing of the face at all.
     if far <= 0.0 {
         return None;
     }
     let axes = face.axes();
+    let depth = |point: &DVec3| point[face.axis] * face.sign;
     let side = |k: usize| {
+        if !around.is_empty() && around.iter().all(|point| depth(point) > 0.0) {
+            let slopes = around.iter().map(|point| point[axes[k]] / depth(point));
+            let [low, high] =
+                slopes.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+            return columns(face, k, low, high);
+        }
         let (low, high) = (bounds.low[axes[k]], bounds.high[axes[k]]);
         let most = |x: f64| match x {
             x if x <= 0.0 => x / far,
@@ -223,20 +232,6 @@ fn reach(face: &Face, bounds: &Bounds) -> Option<Rectangle> {
     Some([side(0)?, side(1)?])
 }
 
-/// The same for a triangle in such a box, more closely.
-fn reach_of_triangle(face: &Face, bounds: &Bounds, corners: &[DVec3; 3]) -> Option<Rectangle> {
-    let depths = corners.map(|corner| corner[face.axis] * face.sign);
-    if depths.iter().any(|&depth| depth <= 0.0) {
-        return reach(face, bounds);
-    }
-    let axes = face.axes();
-    let side = |k: usize| {
-        let at = [0, 1, 2].map(|c| corners[c][axes[k]] / depths[c]);
-        columns(face, k, at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2]))
-    };
-    Some([side(0)?, side(1)?])
-}
-
 /// Columns (or rows) of a face with their middles between two slopes, tangents of the angle from its axis.
 fn columns(face: &Face, side: usize, low: f64, high: f64) -> Option<[usize; 2]> {
     let count = face.count[side] as f64;
@@ -244,5 +239,5 @@ fn columns(face: &Face, side: usize, low: f64, high: f64) -> Option<[usize; 2]> 
     let at = |slope: f64| (slope * face.distance + face.half[side]) * scale - 0.5;
     let first = (at(low) - SLACK).ceil().max(0.0);
     let last = (at(high) + SLACK).floor().min(count - 1.0);
-    (first <= last).then(|| [first as usize, last as usize])
+    (first <= last).then_some([first as usize, last as usize])
 }

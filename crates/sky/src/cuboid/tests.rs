@@ -1,7 +1,6 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use glam::DMat3;
 use light::{Uniform, Vacuum};
 use proptest::prelude::*;
 
@@ -143,13 +142,14 @@ fn a_street_and_a_town_have_what_very_many_rays_find() {
     };
     let mut squares = [0.0; 3];
     for (name, geometry) in [("canyon", canyon()), ("town", town(20, 40.0, 11))] {
+        let plain = Plain::new(&geometry);
         for (altitude, distribution) in [(90.0, Distribution::MoonSpencer), (35.0, Distribution::CIE_CLEAR)] {
             let description = Description { samples: 4096, ..luminous(distribution, altitude) };
             let dome = Dome::new(&description);
             let brightest = description.sky.radiance(toward(altitude)).luminance();
             let skies = [(10, 1), (40, 1), (10, 4)].map(|(n, k)| cuboid(&description, &geometry, n, k));
             for place in places(0.0).into_iter().chain(places(3.0)) {
-                let truth = dome.irradiance(&place, &Plain(&geometry)).luminance();
+                let truth = dome.irradiance(&place, &plain).luminance();
                 let open = dome.open_irradiance(place.normal).luminance();
                 for (sky, square) in skies.iter().zip(&mut squares) {
                     let error = (sky.irradiance(&place, &Vacuum).luminance() - truth).abs();

@@ -7,24 +7,23 @@ use glam::{DAffine3, DMat3, DVec3};
 use light::{Bodies, Geometry, Mesh};
 
 pub(crate) use clip::above;
-pub(crate) use tree::Bounds;
-use tree::{Node, Tree};
+use tree::Tree;
+pub(crate) use tree::{Bounds, Oriented};
 
 /// Triangles in a leaf at most.
 const LEAF: usize = 2;
 
-/// Whoever walks the obstacles. All coordinates are relative to the place, in the obstacles' frame.
+/// Whoever walks the obstacles. All coordinates are relative to the place, in a frame of the visitor's.
 pub(crate) trait Visit {
-    /// Whether anything within a box can matter.
-    fn wants(&mut self, bounds: &Bounds) -> bool;
+    /// Whether anything within a box can matter; `bounds` are those of `solid`, which may be much smaller.
+    fn wants(&mut self, bounds: &Bounds, solid: &Oriented) -> bool;
     /// One triangle.
     fn triangle(&mut self, corners: [DVec3; 3]);
 }
 
-/// Triangles in a frame turned from the world's.
+/// Triangles in the world.
 ///
-/// Two levels: a mesh that is placed many times is kept once, in the frame as its first placement stands, where its boxes
-/// are tight; what is placed only once is therefore never transformed again.
+/// Two levels: a mesh that is placed many times is kept once, in the world as its first placement stands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Obstacles {
     parts: Vec<Part>,
@@ -55,8 +54,7 @@ pub(crate) fn is_edge_on(corners: &[DVec3; 3], error: f64) -> bool {
     let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
     let near = error + 8.0 * f64::EPSILON * reach;
     let distance = a.dot(across);
-    // Also where something is not a number.
-    !(distance * distance > near * near * across.length_squared())
+    !distance.is_finite() || distance * distance <= near * near * across.length_squared()
 }
 
 impl Part {
@@ -72,7 +70,6 @@ impl Obstacles {
     /// The meshes of `geometry` that are `wanted`, and the hulls of `bodies`.
     pub(crate) fn new(
         geometry: &Geometry,
-        frame_from_world: DMat3,
         wanted: impl Fn(&Mesh) -> bool,
         bodies: Option<&dyn Bodies>,
     ) -> Self {
@@ -83,7 +80,7 @@ impl Obstacles {
             if !wanted(mesh) {
                 continue;
             }
-            let placed = DAffine3::from_mat3(frame_from_world) * instance.world_from_mesh;
+            let placed = instance.world_from_mesh;
             let placement = match firsts[instance.mesh as usize] {
                 Some((part, mesh_from_first)) => {
                     Placement { part, there_from_first: placed * mesh_from_first }
@@ -100,8 +97,7 @@ impl Obstacles {
             obstacles.placements.push(placement);
         }
         for hull in bodies.map_or(&[][..], |bodies| bodies.hulls()) {
-            let corners = hull.corners.iter().map(|&corner| frame_from_world * corner).collect();
-            let placement = obstacles.add(Part::new(corners, &hull.faces));
+            let placement = obstacles.add(Part::new(hull.corners.clone(), &hull.faces));
             obstacles.placements.push(placement);
         }
         let boxes: Vec<Bounds> = obstacles.placements.iter().map(|p| obstacles.bounds(p)).collect();
@@ -125,9 +121,10 @@ impl Obstacles {
         Bounds::around(finite.map(|&corner| to.transform_point3(corner)))
     }
 
-    /// Shows `visitor` what is around `origin`, what is nearer mostly before what is farther.
-    pub(crate) fn walk(&self, origin: DVec3, visitor: &mut impl Visit) {
-        let away = DAffine3::from_translation(-origin);
+    /// Shows `visitor`, whose frame is turned from the world's, what is around `origin`, what is nearer mostly before what is
+    /// farther.
+    pub(crate) fn walk(&self, frame_from_world: DMat3, origin: DVec3, visitor: &mut impl Visit) {
+        let away = DAffine3::from_mat3(frame_from_world) * DAffine3::from_translation(-origin);
         descend(&self.tree, &away, visitor, &mut |item, visitor| {
             let placement = &self.placements[item as usize];
             let part = &self.parts[placement.part as usize];
@@ -142,21 +139,20 @@ impl Obstacles {
 
 /// Walks one tree whose boxes `to` brings to where the place is the origin.
 fn descend<V: Visit>(tree: &Tree, to: &DAffine3, visitor: &mut V, receive: &mut impl FnMut(u32, &mut V)) {
-    // Medians halve: no tree of 2³² boxes is deeper than 33.
-    let mut waiting = [(0u32, Bounds { low: DVec3::ZERO, high: DVec3::ZERO }); 40];
-    let spread = DMat3::from_cols(to.matrix3.x_axis.abs(), to.matrix3.y_axis.abs(), to.matrix3.z_axis.abs());
-    let brought = |node: &Node| {
-        let middle = to.transform_point3(0.5 * (node.bounds.low + node.bounds.high));
-        let reach = spread * (0.5 * (node.bounds.high - node.bounds.low));
-        Bounds { low: middle - reach, high: middle + reach }
+    let brought = |node: u32| {
+        let solid = Oriented::brought(&tree.nodes[node as usize].bounds, to);
+        (node, solid, solid.bounds())
     };
-    let Some(root) = tree.nodes.first() else { return };
-    waiting[0] = (0, brought(root));
+    if tree.nodes.is_empty() {
+        return;
+    }
+    // Medians halve: no tree of 2³² boxes is deeper than 33.
+    let mut waiting = [brought(0); 40];
     let mut count = 1;
     while count > 0 {
         count -= 1;
-        let (index, bounds) = waiting[count];
-        if !visitor.wants(&bounds) {
+        let (index, solid, bounds) = waiting[count];
+        if !visitor.wants(&bounds, &solid) {
             continue;
         }
         let node = &tree.nodes[index as usize];
@@ -165,9 +161,8 @@ fn descend<V: Visit>(tree: &Tree, to: &DAffine3, visitor: &mut V, receive: &mut 
             items.iter().for_each(|&item| receive(item, visitor));
             continue;
         }
-        let [mut near, mut far] =
-            [index + 1, node.first].map(|child| (child, brought(&tree.nodes[child as usize])));
-        if far.1.distance_squared() < near.1.distance_squared() {
+        let [mut near, mut far] = [index + 1, node.first].map(brought);
+        if far.2.distance_squared() < near.2.distance_squared() {
             std::mem::swap(&mut near, &mut far);
         }
         (waiting[count], waiting[count + 1]) = (far, near);

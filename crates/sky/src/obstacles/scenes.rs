@@ -1,7 +1,7 @@
 //! Scenes for tests, and an occluder that looks at every triangle.
 
 use glam::{DAffine3, DVec3, Vec3};
-use light::{Geometry, Instance, Mesh, Occlude, Ray, Spectrum};
+use light::{Geometry, Instance, Mesh, Occlude, Ray, Spectrum, Triangle};
 
 /// The unit cube around the origin.
 fn cube() -> Mesh {
@@ -86,25 +86,30 @@ pub(crate) fn meets(
 
 /// Looks at every triangle; nothing passes. What is met within a micrometre is what the ray leaves: a face that the
 /// place lies on, though it is not its own.
-pub(crate) struct Plain<'a>(pub(crate) &'a Geometry);
+pub(crate) struct Plain(Vec<Triangle>);
 
-impl Occlude for Plain<'_> {
+impl Plain {
+    pub(crate) fn new(geometry: &Geometry) -> Self {
+        let of = |i: usize| {
+            let mesh = &geometry.meshes[geometry.instances[i].mesh as usize];
+            (0..mesh.triangles.len()).map(move |t| geometry.triangle(i as u32, t as u32))
+        };
+        Self((0..geometry.instances.len()).flat_map(of).collect())
+    }
+}
+
+impl Occlude for Plain {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let (origin, direction) = (segment.origin.as_dvec3(), segment.direction.as_dvec3());
-        let blocked = self.0.instances.iter().enumerate().any(|(i, instance)| {
-            (0..self.0.meshes[instance.mesh as usize].triangles.len()).any(|t| {
-                let triangle = self.0.triangle(i as u32, t as u32);
-                let [a, b, c] = triangle.0;
-                triangle.meet(origin, direction).is_some_and(|at| {
-                    let met = a + (b - a) * at.x + (c - a) * at.y;
-                    let distance = (met - origin).dot(direction);
-                    at.min_element() >= 0.0
-                        && at.element_sum() <= 1.0
-                        && distance > 1e-6
-                        && distance < f64::from(segment.length)
-                })
+        let blocks = |triangle: &Triangle| {
+            let [a, b, c] = triangle.0;
+            triangle.meet(origin, direction).is_some_and(|at| {
+                let met = a + (b - a) * at.x + (c - a) * at.y;
+                let distance = (met - origin).dot(direction);
+                let within = distance > 1e-6 && distance < f64::from(segment.length);
+                at.min_element() >= 0.0 && at.element_sum() <= 1.0 && within
             })
-        });
-        if blocked { Spectrum::ZERO } else { Spectrum::ONE }
+        };
+        if self.0.iter().any(blocks) { Spectrum::ZERO } else { Spectrum::ONE }
     }
 }

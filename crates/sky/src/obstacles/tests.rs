@@ -8,8 +8,14 @@ use super::*;
 struct Right(Vec<[DVec3; 3]>);
 
 impl Visit for Right {
-    fn wants(&mut self, bounds: &Bounds) -> bool {
-        bounds.most(DVec3::X) > 0.0
+    fn wants(&mut self, bounds: &Bounds, solid: &Oriented) -> bool {
+        assert!(
+            solid
+                .corners()
+                .iter()
+                .all(|c| c.cmpge(bounds.low - 1e-9).all() && c.cmple(bounds.high + 1e-9).all())
+        );
+        solid.most(DVec3::X) > 0.0
     }
     fn triangle(&mut self, corners: [DVec3; 3]) {
         if corners.iter().any(|corner| corner.x > 0.0) {
@@ -45,11 +51,11 @@ fn geometry() -> Geometry {
 fn every_wanted_triangle_is_shown_once_where_it_stands() {
     let geometry = geometry();
     let frame = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(-1.0);
-    let obstacles = Obstacles::new(&geometry, frame, |_| true, None);
+    let obstacles = Obstacles::new(&geometry, |_| true, None);
     for x in [-40.0, -10.0, 0.0, 13.0, 60.0] {
         let origin = DVec3::new(x, 0.5, 0.25);
         let mut right = Right::default();
-        obstacles.walk(origin, &mut right);
+        obstacles.walk(frame, frame.transpose() * origin, &mut right);
         let all = (0..4).flat_map(|i| (0..40).map(move |t| (i, t)));
         let mut expected: Vec<[DVec3; 3]> = all
             .map(|(i, t)| geometry.triangle(i, t).0.map(|corner| frame * corner - origin))

@@ -1,6 +1,6 @@
 //! A hierarchy of boxes.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 /// A box in any frame: lower and upper corner \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,14 +29,46 @@ impl Bounds {
         self.low.max(-self.high).max(DVec3::ZERO).length_squared()
     }
 
-    /// The largest value of `along` · p over its points p.
-    pub(crate) fn most(&self, along: DVec3) -> f64 {
-        (along * self.low).max(along * self.high).element_sum()
-    }
-
     /// True where every coordinate is a finite number.
     pub(crate) fn is_finite(&self) -> bool {
         self.low.is_finite() && self.high.is_finite()
+    }
+}
+
+/// A box that stands anyhow: its middle and its half axes \[m\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Oriented {
+    pub(crate) middle: DVec3,
+    pub(crate) axes: [DVec3; 3],
+}
+
+impl Oriented {
+    /// `bounds` as `to` brings them there.
+    pub(crate) fn brought(bounds: &Bounds, to: &DAffine3) -> Self {
+        let half = 0.5 * (bounds.high - bounds.low);
+        let m = to.matrix3;
+        Self {
+            middle: to.transform_point3(0.5 * (bounds.low + bounds.high)),
+            axes: [m.x_axis * half.x, m.y_axis * half.y, m.z_axis * half.z],
+        }
+    }
+
+    /// The box along the frame's axes around it.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let reach = self.axes.iter().map(|axis| axis.abs()).sum::<DVec3>();
+        Bounds { low: self.middle - reach, high: self.middle + reach }
+    }
+
+    /// The largest value of `along` · p over its points p.
+    pub(crate) fn most(&self, along: DVec3) -> f64 {
+        along.dot(self.middle) + self.axes.iter().map(|axis| along.dot(*axis).abs()).sum::<f64>()
+    }
+
+    pub(crate) fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let side = |k: usize| if i >> k & 1 == 0 { -self.axes[k] } else { self.axes[k] };
+            self.middle + side(0) + side(1) + side(2)
+        })
     }
 }
 
