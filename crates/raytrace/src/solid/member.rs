@@ -117,6 +117,11 @@ impl Member {
         self.solid_from_world * way
     }
 
+    /// A point and two directions in the shape's coordinates.
+    pub(crate) fn local_frame(&self, [origin, x, y]: [DVec3; 3]) -> [DVec3; 3] {
+        [self.local(origin), self.local_vector(x), self.local_vector(y)]
+    }
+
     /// The line in the shape's coordinates; none when it passes the shape's ball.
     ///
     /// With o' = M (o − c), d' = M d and t₀ = (b − o') · d' / d'², b the ball's centre, the new origin is
