@@ -172,9 +172,7 @@ impl Member {
         // Normals transform by the inverse transpose.
         (self.solid_from_world.transpose() * gradient).normalize_or_zero()
     }
-}
 
-impl Member {
     /// How fast the normal of a face turns along it at a point of it, at most \[rad/m\]; 0 for flat ones.
     ///
     /// By differences over a thousandth of the solid's size, in two directions along the face and between them.
