@@ -95,23 +95,9 @@ impl Path {
 /// Bundles spread no wider than this \[rad\]: beyond a quarter turn it means nothing any more.
 const WIDEST: f32 = 1.5;
 
-impl Hit {
-    /// Angle by which the normal turns across the bundle that this hit stands for \[rad\], at most [`WIDEST`].
-    pub fn turn(&self) -> f32 {
-        // Nothing grazes more than this: where surfaces turn away their silhouette ends the bundle.
-        let cos = self.place.normal.dot(self.toward_eye).abs().max(0.05);
-        (self.curvature * self.width / cos.sqrt()).min(WIDEST)
-    }
-
-    /// The same hit at the end of a further ray on `path`: with the bundle's width there, for textures as well.
-    #[must_use]
-    pub fn on(self, path: Path) -> Self {
-        let width = path.width_at(self.distance);
-        let metres = self.tangent.length();
-        let uv_width = if metres > 0.0 { width / metres } else { 0.0 };
-        Self { width, uv_width, path, ..self }
-    }
-}
+/// Cosine below which a bundle counts as no more grazing: from there on a face curved by no more than the bundle is
+/// wide has turned away, and its silhouette ends the bundle before its normal can turn farther.
+const GRAZING: f32 = 0.05;
 
 /// A visible point of a surface, with all that shading may want to know about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,8 +118,8 @@ pub struct Hit {
     pub width: f32,
     /// How fast `shading_normal` turns along the surface, at most \[rad/m\]; 0 = flat.
     pub curvature: f32,
-    /// Width of the bundle on the surface, in texture coordinates; 0 = sample without filtering.
-    pub uv_width: f32,
+    /// Texture coordinates per metre of the surface, √(uv area/area) \[1/m\]; 0 = sample without filtering.
+    pub uv_density: f32,
     /// Linear vertex colour, a factor on the base colour; (1,1,1) without.
     pub vertex_colour: Vec3,
     /// Index into [`crate::Geometry::instances`].
@@ -146,4 +132,24 @@ pub struct Hit {
     pub front: bool,
     /// How the ray came here.
     pub path: Path,
+}
+
+impl Hit {
+    /// Angle by which the normal turns across the bundle that this hit stands for \[rad\], at most a little less than a
+    /// quarter turn.
+    pub fn turn(&self) -> f32 {
+        let cos = self.place.normal.dot(self.toward_eye).abs().max(GRAZING);
+        (self.curvature * self.width / cos.sqrt()).min(WIDEST)
+    }
+
+    /// Width of the bundle in texture coordinates; 0 = sample without filtering.
+    pub fn uv_width(&self) -> f32 {
+        self.width * self.uv_density
+    }
+
+    /// The same hit at the end of a further ray on `path`, with the bundle's width there.
+    #[must_use]
+    pub fn on(self, path: Path) -> Self {
+        Self { width: path.width_at(self.distance), path, ..self }
+    }
 }

@@ -175,7 +175,7 @@ impl Geometry {
             tangent,
             width: pixel_width,
             curvature: curvature(mesh, placed, corners),
-            uv_width: pixel_width * uv_density,
+            uv_density,
             vertex_colour: if mesh.colours.is_empty() {
                 Vec3::ONE
             } else {

@@ -86,3 +86,28 @@ pub(crate) fn share(
     }
     (total[0] > 0.0).then(|| through / total)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The (0, 2) property, to 2⁻ᵏ for every way to divide it among the sides, whatever the scramble.
+    #[test]
+    fn sobol_fills_every_rectangle_once() {
+        for seed in 0..20 {
+            let scramble = if seed == 0 { [0; 2] } else { shift(seed, 7) };
+            for power in 0..=10u32 {
+                let points: Vec<_> = (0..1 << power).map(|i| sobol(i, scramble)).collect();
+                for columns in 0..=power {
+                    let (wide, high) = (f64::from(1u32 << columns), f64::from(1u32 << (power - columns)));
+                    let mut met = vec![0; 1 << power];
+                    for [x, y] in &points {
+                        assert!((0.0..1.0).contains(x) && (0.0..1.0).contains(y));
+                        met[(y * high) as usize * (1 << columns) + (x * wide) as usize] += 1;
+                    }
+                    assert!(met.iter().all(|count| *count == 1), "{seed}: 2^{power}, 2^{columns} columns");
+                }
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3};
-use keikan_light::{Geometry, Instance, Mesh, Place, Projection, Ray, Texture, View, Wrap};
+use keikan_light::{Geometry, Hit, Instance, Mesh, Path, Place, Projection, Ray, Texture, View, Wrap};
 use proptest::prelude::*;
 
 fn view(projection: Projection) -> View {
@@ -79,7 +79,80 @@ fn a_hit_knows_all_about_its_point() {
     // u = 4 · ¼, v = 3 · ⅓ (⅓ rounds).
     assert!((hit.uv - Vec2::new(1.0, 1.0)).length() < 4.0 * f32::EPSILON);
     assert_eq!(hit.tangent, Vec3::X);
-    assert_eq!(hit.uv_width, 0.25);
+    assert_eq!(hit.uv_width(), 0.25);
+}
+
+/// Of a surface that is 3 times as long per u as per v, and of any other.
+#[test]
+fn textures_are_as_wide_in_a_mirror_as_before_the_eye() {
+    for (stretch, density) in [(DVec3::ONE, 1.0f32), (DVec3::new(3.0, 1.0, 1.0), 3f32.sqrt().recip())] {
+        let geometry = triangle(DAffine3::from_scale(stretch));
+        let ray = Ray::new(Vec3::new(1.0, 1.0, 8.0), Vec3::NEG_Z);
+        let at = geometry.triangle(0, 0).meet(ray.origin.as_dvec3(), ray.direction.as_dvec3()).unwrap();
+        let eye = geometry.hit(0, 0, at, &ray, 0.25);
+        // 8 m behind a mirror in which the bundle was 0.05 wide: 0.05 + 8 · 0.025.
+        let path = Path { depth: 1, share: 0.5, width: 0.05, spread: 0.025 };
+        let mirrored = geometry.hit(0, 0, at, &ray, 0.0).on(path);
+        assert!((mirrored.width - eye.width).abs() <= f32::EPSILON, "{}", mirrored.width);
+        for hit in [eye, mirrored] {
+            // A root, a quotient, a sum and two products.
+            assert!(
+                (hit.uv_width() / (0.25 * density) - 1.0).abs() <= 5.0 * f32::EPSILON,
+                "{}",
+                hit.uv_width()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_mirror_widens_a_bundle_by_twice_its_width_over_its_radius() {
+    let geometry = triangle(DAffine3::IDENTITY);
+    let ray = Ray::new(Vec3::new(1.0, 1.0, 8.0), Vec3::NEG_Z);
+    let flat = geometry.hit(0, 0, DVec2::splat(0.25), &ray, 0.02);
+    let head_on = Hit { curvature: 4.0, ..flat };
+    assert_eq!((flat.turn(), head_on.turn()), (0.0, 0.08)); // w/r
+    let path = Path { spread: 0.001, ..Path::EYE };
+    let next = path.then(0.5, &head_on, 2.0);
+    assert_eq!((next.depth, next.share, next.width), (1, 0.5, 0.02));
+    assert!((next.spread - (0.001 + 2.0 * 0.02 / 0.25)).abs() <= f32::EPSILON, "{}", next.spread);
+    assert!((next.width_at(10.0) - (0.02 + 10.0 * next.spread)).abs() <= f32::EPSILON);
+    // A flat mirror passes the spread on, and the width on it is where the next ray begins.
+    assert_eq!(path.then(1.0, &flat, 2.0), Path { depth: 1, share: 1.0, width: 0.02, spread: 0.001 });
+    // At 60° the geometric mean of 1 and 1/cos: √2; and where it grazes there is an end.
+    let turned = |cos: f32| Hit { toward_eye: Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos), ..head_on };
+    assert!((turned(0.5).turn() / head_on.turn() - 2f32.sqrt()).abs() <= 4.0 * f32::EPSILON);
+    assert_eq!(turned(0.0).turn(), turned(0.01).turn());
+    let widest = Hit { curvature: 1e9, ..head_on };
+    assert!(widest.turn() < 1.6 && path.then(1.0, &widest, 2.0).spread < 1.6, "{}", widest.turn());
+    assert_eq!(Path { depth: u8::MAX, ..path }.then(1.0, &flat, 2.0).depth, u8::MAX);
+}
+
+/// Corners of a ball of radius r have the normals position/r: |Δn|/|Δx| is 1/r, whatever the placement.
+#[test]
+fn curvature_of_smooth_meshes_is_that_of_what_they_stand_for() {
+    let corners = [Vec3::X, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.6, 0.0, 0.8)];
+    for (radius, scale, far) in [(1.0, 1.0, 0.0), (0.25, 1.0, 0.0), (0.25, 3.0, 1e6)] {
+        let mesh = Mesh {
+            positions: corners.map(|corner| corner * radius).to_vec(),
+            normals: corners.to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let world_from_mesh =
+            DAffine3::from_translation(DVec3::splat(far)) * DAffine3::from_scale(DVec3::splat(scale));
+        let instance = Instance { mesh: 0, world_from_mesh };
+        let ray = Ray::new(Vec3::X * 9.0, Vec3::NEG_X);
+        let hit = |mesh| {
+            Geometry { meshes: vec![mesh], instances: vec![instance] }.hit(0, 0, DVec2::splat(0.3), &ray, 0.0)
+        };
+        let expected = 1.0 / (radius * scale as f32);
+        let found = hit(mesh.clone()).curvature;
+        // Two distances of numbers that were rounded, their quotient, a cube root.
+        assert!((found / expected - 1.0).abs() <= 8.0 * f32::EPSILON, "{found} {expected}");
+        assert_eq!(hit(Mesh { normals: Vec::new(), ..mesh.clone() }).curvature, 0.0);
+        assert_eq!(hit(Mesh { normals: vec![Vec3::X; 3], ..mesh }).curvature, 0.0);
+    }
 }
 
 #[test]

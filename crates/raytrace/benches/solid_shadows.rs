@@ -95,12 +95,6 @@ fn row(name: &str, solids: &Solids, (middle, side): (f64, f64), long: f64, sourc
         };
         segments.iter().map(count).sum()
     });
-    let mut asked = 0;
-    for &[a, b] in &segments {
-        out.clear();
-        solids.shadows(&source, a, b, &mut out);
-        asked += usize::from(out.iter().any(|stretch| !stretch.dark));
-    }
     let (rays, blocked) = seconds(|| {
         let blocked = |&&[a, b]: &&[DVec3; 2]| {
             let position = ((a + b) * 0.5).as_vec3();
@@ -115,7 +109,7 @@ fn row(name: &str, solids: &Solids, (middle, side): (f64, f64), long: f64, sourc
     });
     let each = 1e6 / segments.len() as f64;
     println!(
-        "{name:16}{long:7.2} m{:9.3} µs{:9.3} µs{:8.1}{stretches:10}{blocked:9}{asked:8}",
+        "{name:16}{long:7.2} m{:9.3} µs{:9.3} µs{:8.1}{stretches:10}{blocked:9}",
         cut * each,
         rays * each,
         cut / rays
@@ -124,8 +118,8 @@ fn row(name: &str, solids: &Solids, (middle, side): (f64, f64), long: f64, sourc
 
 fn main() {
     println!(
-        "{:16}{:>9}{:>12}{:>12}{:>8}{:>10}{:>9}{:>8}",
-        "", "segment", "cut", "ray", "rays", "stretches", "blocked", "asked"
+        "{:16}{:>9}{:>12}{:>12}{:>8}{:>10}{:>9}",
+        "", "segment", "cut", "ray", "rays", "stretches", "blocked"
     );
     let solids = |nodes: Vec<Node>| {
         let bodies = nodes.into_iter().map(|node| Body { node, medium: None }).collect();

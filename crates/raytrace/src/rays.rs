@@ -93,7 +93,7 @@ impl Rays {
         let hit = self.hit(met, at, screen, depth, f64::from(self.samples).sqrt().recip());
         let geometry = &self.world.geometry;
         let mesh = &geometry.meshes[geometry.instances[met.instance as usize].mesh as usize];
-        mesh.opacity.as_ref().map_or(1.0, |opacity| opacity.at(hit.uv, hit.uv_width).into())
+        mesh.opacity.as_ref().map_or(1.0, |opacity| opacity.at(hit.uv, hit.uv_width()).into())
     }
 
     /// The hit seen through `screen`, with a footprint of `width` pixels.

@@ -93,15 +93,20 @@ fn a_ball_casts_a_conic() {
         // Points far away round by 2⁻⁵³ of their coordinates; the border of a shadow that is just grazed moves by
         // the root of what moves the way, so chords through less than 1 % of it are left out.
         let bound = 1e-12 + 1e-14 * far;
+        let (mut beside, mut compared) = (0, 0);
         for line in 0..400 {
             let z = -2.5 + 0.01 * f64::from(line);
             let (a, b) = (DVec3::new(-3.0, 0.0, z), DVec3::new(2.0, 0.0, z + 0.3));
             let told = shadows(&solids, PointSource::At(lamp + by), a + by, b + by);
             match conic(centre, radius, lamp, a, b) {
-                None => assert_eq!(told, [], "{z}"),
+                None => {
+                    assert_eq!(told, [], "{z}");
+                    beside += 1;
+                }
                 Some([from, to]) if to - from < 0.01 => {}
                 Some([from, to]) => {
                     assert_eq!(told.len(), 1, "{z} {far}");
+                    compared += 1;
                     let Stretch { from: f, to: t, dark } = told[0];
                     assert!(
                         dark && (f - from).abs() < bound && (t - to).abs() < bound,
@@ -110,6 +115,8 @@ fn a_ball_casts_a_conic() {
                 }
             }
         }
+        println!("{compared} chords, {beside} lines beside the shadow");
+        assert!(compared > 40 && beside > 200, "{compared} {beside}");
     }
 }
 
@@ -137,6 +144,50 @@ fn a_box_and_a_cylinder_cast_what_they_measure() {
     let block = at(Shape::cube(), DVec3::new(3.0, 1.0, 3.0), DVec3::NEG_Y);
     let knob = at(Shape::cube(), DVec3::new(0.25, 0.5, 1.0), DVec3::Y * 0.25);
     near(one(Node::Union(vec![block, knob])), [-0.25, 1.0]);
+}
+
+/// A rod of radius 0.3 ρ and height 2 ρ without what a ball of radius 0.5 ρ around 0.8 ρ takes out of it, and what
+/// else is in the body; on the floor beside its axis, by z ρ, in light at 45° along the segment.
+fn notched_rod(rho: f64, z: f64, turn: f64, others: Vec<Node>) -> Vec<[f64; 2]> {
+    let turn = DQuat::from_rotation_y(turn);
+    let rod = at(Shape::Cylinder, DVec3::new(0.3, 2.0, 0.3) * rho, DVec3::ZERO);
+    let ball = at(Shape::Sphere, DVec3::splat(0.5 * rho), DVec3::Y * 0.8 * rho);
+    let mut all = vec![Node::Difference(Box::new(rod), vec![ball])];
+    all.extend(others);
+    let sun = PointSource::Toward(turn * DVec3::new(-1.0, 1.0, 0.0).normalize());
+    let [a, b] = [-1.0, 3.0].map(|x| turn * DVec3::new(x, 0.0, z) * rho);
+    let told = shadows(&opaque(vec![Node::Union(all)]), sun, a, b);
+    told.iter().map(|s| [s.from * 4.0 - 1.0, s.to * 4.0 - 1.0]).collect()
+}
+
+/// In the rod's cut, |x| ≤ h = √(0.09 − z²), the way from x to the sun is (x − t, t): it enters and leaves at t = x ± h, and
+/// all of that is in the ball if h² + (x ± h − 0.8)² ≤ 0.25 − z², or |x − 0.8| ≤ 0.4 − h. At z = 0.1 the rod is cut in two
+/// lines, which are upright as the sheet's y is.
+#[test]
+fn corners_of_a_line_along_the_sheet() {
+    let check = |found: Vec<[f64; 2]>, z: f64, rho: f64, what: &str| {
+        let half = (0.09 - z * z).sqrt();
+        let expected = [[-half, 0.4 + half], [1.2 - half, 2.0 + half]];
+        // EXACT of the segment's 4 ρ, and a dozen roundings of the body's 6 m, in whose coordinates places are.
+        let bound = 1e-11 + 12.0 * 2f64.powi(-53) * 6.0 / rho;
+        let near = |(f, e): (&[f64; 2], &[f64; 2])| f.iter().zip(e).all(|(f, e)| (f - e).abs() < bound);
+        assert!(found.len() == 2 && found.iter().zip(&expected).all(near), "{what}: {found:?} {expected:?}");
+    };
+    for turn in [0.0, 0.3, 1.1] {
+        for z in [0.0, 0.05, 0.1, 0.2] {
+            check(notched_rod(1.0, z, turn, Vec::new()), z, 1.0, &format!("turned by {turn}, {z}"));
+            // The same, as a small part of a body that reaches under the floor.
+            for rho in [1e-3, 1e-4, 1e-5, 1e-6] {
+                let below = at(Shape::cube(), DVec3::ONE, DVec3::Y * -5.0);
+                check(
+                    notched_rod(rho, z, turn, vec![below]),
+                    z,
+                    rho,
+                    &format!("turned by {turn}, {z}, {rho}"),
+                );
+            }
+        }
+    }
 }
 
 #[test]
@@ -241,11 +292,19 @@ impl Dice {
         }
     }
 
-    /// Beside the body, through it, on planes on which its members may stand, and almost along the light.
+    /// Beside the body, through it, below the light, on planes on which its members may stand, and almost along the light.
     fn segment(&mut self, source: PointSource) -> [DVec3; 2] {
         let (mut a, mut b) = (self.within(3.0), self.within(3.0));
-        match (self.roll() * 6.0) as u32 {
+        match (self.roll() * 7.0) as u32 {
             0 => (a.y, b.y) = (0.0, 0.0),
+            2 => {
+                // In an upright plane with the light, in which upright cylinders are lines.
+                let way = match source {
+                    PointSource::At(lamp) => lamp - self.about - a,
+                    PointSource::Toward(way) => way * 3.0,
+                };
+                b = a - DVec3::new(way.x, 0.0, way.z) * (self.roll() + 0.2);
+            }
             1 => {
                 let way = match source {
                     PointSource::At(lamp) => lamp - self.about - a,

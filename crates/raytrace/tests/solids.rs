@@ -235,7 +235,45 @@ fn tangent_solids_and_slivers() {
         solid(Shape::Cone, DAffine3::from_scale(DVec3::new(1e-6, 1.0, 1.0))),
     ];
     for (index, case) in cases.iter().enumerate() {
-        torture(case, index as u64);
+        let met = torture(case, index as u64);
+        // A point of two balls is no room, and lines on a lattice miss a lens that is 0.9 mm wide.
+        let expected = if [1, 8].contains(&index) { 0..=0 } else { 50..=usize::MAX };
+        assert!(expected.contains(&met), "{index}: {met}");
+    }
+    let lens = bodies(vec![cases[8].clone()]);
+    assert_eq!(agrees(&cases[8], &lens, (DVec3::X * -5.0, DVec3::X)), Ok(2));
+}
+
+/// 1/r on balls and on the sides of cylinders, 0 on what is flat, as far away as may be.
+#[test]
+fn faces_are_as_curved_as_their_radius_says() {
+    for (radius, far) in [(1.0, 0.0), (0.1, 0.0), (20.0, 0.0), (0.5, 1e6)] {
+        let place = DVec3::new(1.0, -0.4, 0.7) * far;
+        let scaled = |shape, scale| {
+            let of = DAffine3::from_translation(place) * DAffine3::from_scale(scale);
+            bodies(vec![solid(shape, of)])
+        };
+        let curvature = |solids: &Solids, aim: DVec3, from: DVec3| {
+            let from = (place + aim + from * 3.0 * radius).as_vec3();
+            let way = (place + aim - from.as_dvec3()).normalize().as_vec3();
+            let hit = solids.nearest(&Ray::new(from, way)).expect("a hit");
+            f64::from(hit.curvature) * radius
+        };
+        let ball = scaled(Shape::Sphere, DVec3::splat(radius));
+        let rod = scaled(Shape::Cylinder, DVec3::new(radius, 2.0 * radius, radius));
+        let cube = scaled(Shape::cube(), DVec3::splat(radius));
+        // By differences over δ = 1e-3 of the radius along the tangent: of order δ², some 1e-6; places at 1e6 m round by
+        // 1e-10 m, 2e-7 of the step.
+        let round = |found: f64| (found - 1.0).abs() < 1e-5;
+        for from in [DVec3::X, DVec3::new(0.6, 0.0, -0.8), DVec3::new(-0.36, 0.48, 0.8)] {
+            let (ball, rod) = (
+                curvature(&ball, DVec3::ZERO, from),
+                curvature(&rod, DVec3::Y * radius, from * DVec3::new(1.0, 0.0, 1.0)),
+            );
+            assert!(round(ball) && round(rod), "{radius} {far}: {ball} {rod}");
+        }
+        assert_eq!(curvature(&rod, DVec3::new(0.3, 1.0, 0.2) * radius, DVec3::Y), 0.0);
+        assert_eq!(curvature(&cube, DVec3::ZERO, DVec3::X), 0.0);
     }
 }
 

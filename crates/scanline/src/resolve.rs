@@ -128,7 +128,7 @@ impl Scanline {
     pub(crate) fn opacity(&self, hit: &Hit) -> f64 {
         let mesh = self.geometry.instances[hit.instance as usize].mesh;
         let opacity = self.geometry.meshes[mesh as usize].opacity.as_ref();
-        opacity.map_or(1.0, |opacity| f64::from(opacity.at(hit.uv, hit.uv_width)))
+        opacity.map_or(1.0, |opacity| f64::from(opacity.at(hit.uv, hit.uv_width())))
     }
 
     /// The hit at the centroid of what shows of a face. It lies in the face, because all that shows does

@@ -63,7 +63,7 @@ impl Bodies for Balls {
             tangent: Vec3::ZERO,
             width: 0.0,
             curvature: 0.0,
-            uv_width: 0.0,
+            uv_density: 0.0,
             vertex_colour: Vec3::ONE,
             instance: FIRST + body,
             triangle: 0,

@@ -98,7 +98,7 @@ impl Illuminate for Sun {
         transmit(occlude, rays, |(), transmittance| through += transmittance);
         if !through.is_zero() {
             let irradiance = self.irradiance * through * (risen / count as f32);
-            receive(Arrival::Beam { toward, irradiance, radius: Some(sin) });
+            receive(Arrival::Beam { toward, irradiance, radius: Some(sin.asin()) });
         }
     }
 

@@ -133,8 +133,8 @@ impl Illuminate for AreaLight {
         });
         let irradiance = self.radiance * visible * vector.length() as f32;
         if irradiance.is_finite() && !irradiance.is_zero() {
-            // As wide as a disc of its solid angle.
-            let radius = (vector.length() / std::f64::consts::PI).sqrt() as f32;
+            // As wide as a disc that sends as much: one of radius ρ has |V| = π sin² ρ.
+            let radius = (vector.length() / std::f64::consts::PI).sqrt().min(1.0).asin() as f32;
             receive(Arrival::Beam { toward, irradiance, radius: Some(radius) });
         }
     }

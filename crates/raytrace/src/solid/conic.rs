@@ -44,6 +44,8 @@ impl Conic {
     ///
     /// a y² + b y + c and a' y² + b' y + c' have a root in common where
     /// (a c' − a' c)² = (a b' − a' b) (b c' − b' c).
+    ///
+    /// That root is sought among those of both: where one is a line along y, of it any y is a point.
     pub(crate) fn meet(&self, other: &Self, mut visit: impl FnMut(DVec2)) {
         let ([c, b, a], [c2, b2, a2]) = (self.columns(), other.columns());
         let minor = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
@@ -59,11 +61,13 @@ impl Conic {
             }
         }
         partings(resultant, |x| {
-            for y in quadratic(self.along(DVec2::new(x, 0.0), DVec2::Y)) {
-                let point = DVec2::new(x, y);
-                // Where both turn, y is only as exact as the root of x.
-                if other.value(point).abs() < 1e-4 {
-                    visit(point);
+            for (one, two) in [(self, other), (other, self)] {
+                for y in quadratic(one.along(DVec2::new(x, 0.0), DVec2::Y)) {
+                    let point = DVec2::new(x, y);
+                    // Where both turn, y is only as exact as the root of x.
+                    if two.value(point).abs() < 1e-4 {
+                        visit(point);
+                    }
                 }
             }
         });

@@ -117,6 +117,11 @@ impl Member {
         self.solid_from_world * way
     }
 
+    /// A point and two directions in the shape's coordinates.
+    pub(crate) fn local_frame(&self, [origin, x, y]: [DVec3; 3]) -> [DVec3; 3] {
+        [self.local(origin), self.local_vector(x), self.local_vector(y)]
+    }
+
     /// The line in the shape's coordinates; none when it passes the shape's ball.
     ///
     /// With o' = M (o − c), d' = M d and t₀ = (b − o') · d' / d'², b the ball's centre, the new origin is
@@ -167,9 +172,7 @@ impl Member {
         // Normals transform by the inverse transpose.
         (self.solid_from_world.transpose() * gradient).normalize_or_zero()
     }
-}
 
-impl Member {
     /// How fast the normal of a face turns along it at a point of it, at most \[rad/m\]; 0 for flat ones.
     ///
     /// By differences over a thousandth of the solid's size, in two directions along the face and between them.

@@ -7,7 +7,7 @@
 //!   quadratic in the place, since m is linear in it;
 //! - or passes a corner of the cut: a rim of a frustum, a corner of a polyhedron, or where the faces of two
 //!   members cross. Within the plane faces are straight edges and conics; two conics have in common the roots
-//!   of a polynomial of the fourth degree, their resultant;
+//!   of a polynomial of the fourth degree, their resultant, in coordinates of what the two members have in common;
 //! - or starts where the segment itself enters or leaves the body.
 //!
 //! A place too many costs a test, one found inexactly a few tests.
@@ -15,6 +15,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
+    boxes::Bounds,
     chord::{BASE, Surface, TOP},
     conic::Conic,
     fan::Fan,
@@ -34,7 +35,7 @@ impl Section {
     /// Reports at which shares of the segment ways to the source touch the member or pass a corner of it, and at
     /// which points.
     pub(crate) fn new(member: &Member, fan: &Fan, sheet: &Sheet, mut visit: impl FnMut(f64, DVec3)) -> Self {
-        let frame = [member.local(sheet.origin), member.local_vector(sheet.x), member.local_vector(sheet.y)];
+        let frame = member.local_frame([sheet.origin, sheet.x, sheet.y]);
         let conic = conic(&member.surface, frame);
         let edges = match (&member.surface, &conic) {
             (Surface::Planes(planes), _) => polygon(planes, frame),
@@ -54,16 +55,13 @@ impl Section {
         Self { conic, edges }
     }
 
-    /// Reports where ways to the source pass a point that both surfaces have in common.
+    /// Reports where ways to the source pass a point that an edge of one has in common with the other's surface.
     pub(crate) fn corners(&self, other: &Self, sheet: &Sheet, mut visit: impl FnMut(f64, DVec3)) {
         let mut see = |point: DVec2| {
             if let Some(s) = sheet.share(point) {
                 visit(s, sheet.point(point));
             }
         };
-        if let (Some(one), Some(two)) = (&self.conic, &other.conic) {
-            one.meet(two, &mut see);
-        }
         let within = |t: f64| (-NEAR..=1.0 + NEAR).contains(&t);
         for (conic, edges) in [(&self.conic, &other.edges), (&other.conic, &self.edges)] {
             let Some(conic) = conic else { continue };
@@ -83,6 +81,25 @@ impl Section {
             }
         }
     }
+}
+
+/// Reports where ways to the source pass a point that the curved faces of two members have in common, within a box.
+pub(crate) fn crossings(
+    [one, two]: [&Member; 2],
+    common: &Bounds,
+    sheet: &Sheet,
+    mut visit: impl FnMut(f64, DVec3),
+) {
+    let square = sheet.square(common);
+    let frame = square.frame(sheet);
+    let cut = |member: &Member| conic(&member.surface, member.local_frame(frame));
+    let (Some(one), Some(two)) = (cut(one), cut(two)) else { return };
+    one.meet(&two, |at| {
+        let point = square.on_sheet(at);
+        if let Some(s) = sheet.share(point) {
+            visit(s, sheet.point(point));
+        }
+    });
 }
 
 /// A vector in the coordinates in which a quadric is a sum of signed squares: x, y, z of a ball; x, z and the radius

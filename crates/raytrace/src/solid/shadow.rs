@@ -5,11 +5,12 @@
 //! where it does change is where a stretch ends, once ways just before and just behind it have confirmed it;
 //! otherwise halving finds it. So what is dark is what rays say; what cuts the members only says where to look.
 //!
-//! *How exactly.* A stretch ends where the shadow does, to [`EXACT`] of the segment and to what walls are known to
-//! (see [`crate::solid`]), as a lamp projects it. Where the body stands on the segment or pierces it, rays themselves
-//! cannot tell nearer than 1e-9 of the coordinates ([`TOUCH`]); a lamp that near to a surface is on either side of it.
-//! A piece of shadow, or of light between two, may be missed where it is shorter than [`EXACT`], or where both its
-//! ends come from one pair of curved members whose surfaces touch there, but for 1e-8 of the body's size.
+//! *How exactly.* A stretch ends where the shadow does, to [`EXACT`] of the segment, to what walls are known to
+//! (see [`crate::solid`]) and to a dozen 2⁻⁵³ of the body's size, as a lamp projects it. Where the body stands on the
+//! segment or pierces it, rays themselves cannot tell nearer than 1e-9 of the coordinates ([`TOUCH`]); a lamp that near
+//! to a surface is on either side of it. A piece of shadow, or of light between two, may be missed where it is shorter
+//! than [`EXACT`], or where both its ends come from one pair of curved members whose surfaces touch there, but for 1e-8
+//! of the body's size; and where they come from an edge on a curved member that is smaller than 1e-7 of the body.
 
 use glam::DVec3;
 use light::Stretch;
@@ -18,7 +19,7 @@ use super::{
     Ready,
     fan::{Fan, TOUCH},
     member::U,
-    section::Section,
+    section::{Section, crossings},
     sheet::Sheet,
 };
 
@@ -97,7 +98,10 @@ impl Fan {
                 if let (Some(one), Some(two)) = (&sections[i as usize], &sections[j as usize])
                     && self.passes(&common)
                 {
-                    one.corners(two, sheet, |s, at| see(s, at, [i, j]));
+                    let mut see = |s, at| see(s, at, [i, j]);
+                    one.corners(two, sheet, &mut see);
+                    let members = [i, j].map(|member| &compound.members[member as usize]);
+                    crossings(members, &common, sheet, see);
                 }
             }
         }

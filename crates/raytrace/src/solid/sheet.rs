@@ -44,6 +44,15 @@ impl Sheet {
         self.origin + self.x * at.x + self.y * at.y
     }
 
+    /// The square around what the plane cuts out of a box.
+    pub(crate) fn square(&self, bounds: &Bounds) -> Square {
+        let size = self.x.length();
+        let from = ((bounds.low + bounds.high) * 0.5 - self.origin) / size;
+        // The foot of the box's centre is no farther from any of its points in the plane than the centre itself.
+        let half = 0.5 * (bounds.high - bounds.low).length() / size + NEAR;
+        Square { centre: DVec2::new(from.dot(self.x), from.dot(self.y)) / size, half }
+    }
+
     /// At which share of the segment a point between it and the source lies behind.
     ///
     /// From a lamp p: x − p = λ (a − p + s (b − a)); towards a sun w: x − a = s (b − a) + α w.
@@ -57,5 +66,24 @@ impl Sheet {
         let across = from.perp_dot(self.way);
         let part = across / first.perp_dot(self.way);
         (part > 0.0 && part < 1.0 + NEAR).then(|| -from.perp_dot(first) / across)
+    }
+}
+
+/// A part of a [`Sheet`] with coordinates of its own, in which it is within ±1: what is small in a body is as exact
+/// there as what is large.
+pub(crate) struct Square {
+    centre: DVec2,
+    half: f64,
+}
+
+impl Square {
+    /// A point in the coordinates of the sheet.
+    pub(crate) fn on_sheet(&self, at: DVec2) -> DVec2 {
+        self.centre + at * self.half
+    }
+
+    /// Its centre and axes in the world.
+    pub(crate) fn frame(&self, sheet: &Sheet) -> [DVec3; 3] {
+        [sheet.point(self.centre), sheet.x * self.half, sheet.y * self.half]
     }
 }

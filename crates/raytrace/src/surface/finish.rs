@@ -20,7 +20,7 @@ impl Image {
     /// Colour at the hit, averaged over the viewing pixel.
     pub(crate) fn colour(&self, hit: &Hit) -> Vec3 {
         // √|det| is the factor on lengths, exact where the transform keeps angles.
-        let width = hit.uv_width * self.transform.matrix2.determinant().abs().sqrt();
+        let width = hit.uv_width() * self.transform.matrix2.determinant().abs().sqrt();
         self.texture.sample(self.transform.transform_point2(hit.uv), width).0
     }
 }
@@ -136,7 +136,7 @@ impl Finish {
 ///     place: Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 },
 ///     shading_normal: Vec3::Y,
 ///     toward_eye: Vec3::new(0.6, 0.8, 0.0),
-///     distance: 1.0, uv: Vec2::ZERO, tangent: Vec3::ZERO, width: 0.0, curvature: 0.0, uv_width: 0.0, vertex_colour: Vec3::ONE,
+///     distance: 1.0, uv: Vec2::ZERO, tangent: Vec3::ZERO, width: 0.0, curvature: 0.0, uv_density: 0.0, vertex_colour: Vec3::ONE,
 ///     instance: 0, triangle: 0, material: 0, front: true, path: Path::EYE,
 /// };
 /// let share = furnace(&white, &hit);

@@ -24,7 +24,7 @@ fn hit(toward_eye: Vec3) -> Hit {
         tangent: Vec3::X,
         width: 0.0,
         curvature: 0.0,
-        uv_width: 0.0,
+        uv_density: 0.0,
         vertex_colour: Vec3::ONE,
         instance: 0,
         triangle: 0,
