@@ -22,7 +22,12 @@ fn key(time: f64, position: [f64; 3]) -> Key {
 }
 
 fn keys() -> impl Strategy<Value = Vec<Key>> {
-    let one = (0.01..5.0f64, [-50.0..50.0f64, 0.0..9.0, -50.0..50.0], [-9.0..9.0f64, -5.0..-1.0, -9.0..9.0], 0.1..2.0f64);
+    let one = (
+        0.01..5.0f64,
+        [-50.0..50.0f64, 0.0..9.0, -50.0..50.0],
+        [-9.0..9.0f64, -5.0..-1.0, -9.0..9.0],
+        0.1..2.0f64,
+    );
     prop::collection::vec(one, 1..7).prop_map(|list| {
         let mut now = -3.0;
         let key = |(step, position, target, half): (f64, [f64; 3], [f64; 3], f64)| {
@@ -86,7 +91,10 @@ fn on_a_straight_line_at_an_even_speed_the_curve_is_that_line() {
 
 #[test]
 fn who_waits_stands_still() {
-    let camera = camera(vec![key(0.0, [0.0; 3]), key(1.0, [5.0, 0.0, 0.0]), key(3.0, [5.0, 0.0, 0.0]), key(4.0, [0.0; 3])], true);
+    let camera = camera(
+        vec![key(0.0, [0.0; 3]), key(1.0, [5.0, 0.0, 0.0]), key(3.0, [5.0, 0.0, 0.0]), key(4.0, [0.0; 3])],
+        true,
+    );
     for t in [1.0, 1.3, 2.0, 2.9, 3.0] {
         assert_eq!(camera.at(t).position, DVec3::new(5.0, 0.0, 0.0), "{t}");
     }
@@ -94,7 +102,15 @@ fn who_waits_stands_still() {
 
 #[test]
 fn velocity_has_no_jump_at_a_key() {
-    let camera = camera(vec![key(0.0, [0.0; 3]), key(1.0, [3.0, 0.0, 1.0]), key(1.5, [4.0, 2.0, 0.0]), key(4.0, [9.0, 0.0, 0.0])], true);
+    let camera = camera(
+        vec![
+            key(0.0, [0.0; 3]),
+            key(1.0, [3.0, 0.0, 1.0]),
+            key(1.5, [4.0, 2.0, 0.0]),
+            key(4.0, [9.0, 0.0, 0.0]),
+        ],
+        true,
+    );
     let h = 1e-6;
     for t in [1.0, 1.5] {
         let at = |t: f64| camera.at(t).position;
@@ -113,7 +129,10 @@ fn odd_paths_have_no_odd_numbers() {
             let camera = camera(keys.clone(), smooth);
             for t in [f64::NAN, f64::NEG_INFINITY, f64::INFINITY, -1.0, 0.0, 0.5, 1.0, 1e300] {
                 let there = camera.at(t);
-                assert!(there.position.is_finite() && there.world_from_camera.is_finite() && half(&there) > 0.0, "{t}");
+                assert!(
+                    there.position.is_finite() && there.world_from_camera.is_finite() && half(&there) > 0.0,
+                    "{t}"
+                );
             }
         }
     }

@@ -8,9 +8,7 @@ use light::{Geometry, Instance, Mesh};
 
 use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
-use crate::{
-    AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning,
-};
+use crate::{AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
 /// 16384 is 0.98 mm.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use light::Projection;
 
-use super::placement::look_along;
 use super::paths;
+use super::placement::look_along;
 use crate::document::Spot;
 use crate::file::{CameraTable, GridTable, LineTable, SensorTable};
 use crate::{Camera, Error, Sensor};
@@ -64,9 +64,7 @@ fn projection(spot: &Spot<'_>, table: &CameraTable) -> Result<Projection, Error>
     let perspective = |tan_half_height| Projection::Perspective { tan_half_height };
     match (table.field_of_view, table.focal_length, table.orthographic) {
         (None, None, None) => Ok(perspective(half_of(40.0))),
-        (Some(degrees), None, None) => {
-            field_of_view(spot, degrees).map(perspective)
-        }
+        (Some(degrees), None, None) => field_of_view(spot, degrees).map(perspective),
         (None, Some(mm), None) => {
             let mm = spot.key("focal_length").within(mm, 1.0, 100_000.0, "mm")?;
             Ok(perspective(0.5 * FRAME_HEIGHT / mm))

@@ -27,7 +27,9 @@ pub(crate) fn path(
     projection: Projection,
 ) -> Result<CameraPath, Error> {
     if table.position.is_some() {
-        return Err(spot.key("position").error("is not possible beside path: its keys say where the camera is"));
+        return Err(spot
+            .key("position")
+            .error("is not possible beside path: its keys say where the camera is"));
     }
     if table.target.is_some() && table.direction.is_some() {
         spot.exactly_one(&[("target", true), ("direction", true)])?;
@@ -61,9 +63,7 @@ fn key(
     let (target, at) = match (key.target, table.target, table.direction) {
         (Some(target), ..) => (spot.key("target").point(target)?, spot.key("target")),
         (None, Some(target), _) => (camera.key("target").point(target)?, spot.key("position")),
-        (None, None, Some(way)) => {
-            (position + camera.key("direction").direction(way)?, spot.key("position"))
-        }
+        (None, None, Some(way)) => (position + camera.key("direction").direction(way)?, spot.key("position")),
         (None, None, None) => {
             let what = "is required, here or for the whole camera (target or direction)";
             return Err(spot.key("target").error(what));

@@ -40,9 +40,9 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Year, Error> {
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
     let (first, head) = lines.find(|(_, line)| !line.is_empty()).unwrap_or((0, ""));
     let station = station(head).map_err(|what| fault(first, what))?;
-    let (at, periods) = lines
-        .find(|(_, line)| starts(line, "DATA PERIODS"))
-        .ok_or_else(|| fault(0, "has no line that begins with DATA PERIODS: not a whole EPW file".to_owned()))?;
+    let (at, periods) = lines.find(|(_, line)| starts(line, "DATA PERIODS")).ok_or_else(|| {
+        fault(0, "has no line that begins with DATA PERIODS: not a whole EPW file".to_owned())
+    })?;
     records_an_hour(periods).map_err(|what| fault(at, what))?;
 
     let mut hours = vec![None; SLOTS];
@@ -101,7 +101,9 @@ fn station(line: &str) -> Result<Station, String> {
 fn records_an_hour(line: &str) -> Result<(), String> {
     match line.split(',').nth(2).map(str::trim) {
         Some("1") => Ok(()),
-        Some(other) => Err(format!("{other:?} records an hour: files with one record an hour are understood")),
+        Some(other) => {
+            Err(format!("{other:?} records an hour: files with one record an hour are understood"))
+        }
         None => Err("DATA PERIODS does not say how many records there are an hour".to_owned()),
     }
 }
@@ -110,7 +112,10 @@ fn row(line: &str) -> Result<Row, String> {
     let fields: Vec<&str> = line.split(',').collect();
     if fields.len() <= DIFFUSE_HORIZONTAL {
         let least = DIFFUSE_HORIZONTAL + 1;
-        return Err(format!("has {} columns, but irradiances stand in columns {DIRECT_NORMAL} to {least}", fields.len()));
+        return Err(format!(
+            "has {} columns, but irradiances stand in columns {DIRECT_NORMAL} to {least}",
+            fields.len()
+        ));
     }
     let month = whole(fields[MONTH], "month", 1, 12)?;
     let day = whole(fields[DAY], "day", 1, 31)?;
@@ -132,7 +137,11 @@ fn in_unity(hours: &mut [Option<Hour>]) {
     let mut depths: Vec<f64> = hours.iter().flatten().filter_map(|hour| hour.aerosol_depth).collect();
     depths.sort_unstable_by(f64::total_cmp);
     if depths.get(depths.len() / 2).is_some_and(|&median| median >= 1.0) {
-        hours.iter_mut().flatten().filter_map(|hour| hour.aerosol_depth.as_mut()).for_each(|depth| *depth /= 1000.0);
+        hours
+            .iter_mut()
+            .flatten()
+            .filter_map(|hour| hour.aerosol_depth.as_mut())
+            .for_each(|depth| *depth /= 1000.0);
     }
 }
 

@@ -135,11 +135,12 @@ impl Station {
     fn sunshine(&self, start: Timestamp) -> Sunshine {
         let part = 3600 / i64::from(PARTS);
         let moments = (0..i64::from(PARTS)).map(|i| start.as_second() + part * i + part / 2);
-        let sum = moments.filter_map(|second| Timestamp::from_second(second).ok()).fold([0.0; 2], |sum, time| {
-            let Self { latitude, longitude, elevation, .. } = *self;
-            let e = sunshine(&Site { latitude, longitude, elevation, time, ..Site::default() });
-            [sum[0] + e[0], sum[1] + e[1]]
-        });
+        let sum =
+            moments.filter_map(|second| Timestamp::from_second(second).ok()).fold([0.0; 2], |sum, time| {
+                let Self { latitude, longitude, elevation, .. } = *self;
+                let e = sunshine(&Site { latitude, longitude, elevation, time, ..Site::default() });
+                [sum[0] + e[0], sum[1] + e[1]]
+            });
         sum.map(|sum| sum / f64::from(PARTS))
     }
 

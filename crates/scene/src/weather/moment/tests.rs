@@ -29,8 +29,12 @@ fn site(time: &str) -> Site {
     Site { latitude, longitude, elevation, time: time.parse().unwrap(), ..Site::default() }
 }
 
-const EVEN: Hour =
-    Hour { direct_normal: Some(700.0), diffuse_horizontal: Some(90.0), dew_point: Some(11.0), aerosol_depth: Some(0.1) };
+const EVEN: Hour = Hour {
+    direct_normal: Some(700.0),
+    diffuse_horizontal: Some(90.0),
+    dew_point: Some(11.0),
+    aerosol_depth: Some(0.1),
+};
 
 /// A row that holds `of` sunshine: 800 W/m² facing the sun and 120 W/m² · sin(altitude) from the sky, both as means.
 fn proportional(station: &Station, start: Timestamp) -> Option<Hour> {
@@ -76,7 +80,8 @@ proptest! {
 fn rows_belong_to_the_middle_of_the_hour_before_their_time() {
     let noon: Timestamp = "2024-05-10T07:00:00Z".parse().unwrap();
     let start: Timestamp = "2024-05-10T06:30:00Z".parse().unwrap();
-    let lone = |at: Timestamp| Some(if at == start { EVEN } else { Hour { direct_normal: Some(0.0), ..EVEN } });
+    let lone =
+        |at: Timestamp| Some(if at == start { EVEN } else { Hour { direct_normal: Some(0.0), ..EVEN } });
     let year = year(19_800, false, lone);
     let at = |minutes: i64| {
         let time = Timestamp::from_second(noon.as_second() + 60 * minutes).unwrap();
