@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
 
 /// Landscape and lighting simulation: pictures and lux one can trust.
@@ -27,6 +28,8 @@ pub struct Cli {
 pub enum Command {
     /// Make a picture: EXR in cd/m², and PNG by a stated exposure.
     Render(Render),
+    /// Make many pictures: along a camera's path, or through a day.
+    Animate(Animate),
     /// Say which stages run, with which models and knobs, and why. Renders nothing.
     Plan(PlanArgs),
     /// Illuminance at the scene's sensors, by source.
@@ -68,6 +71,59 @@ pub struct Render {
     /// Where to write; .exr and .png tell the format; may be repeated. Default: the scene's name with both.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// How it becomes files.
+    #[command(flatten)]
+    pub develop: Develop,
+}
+
+/// `keikan animate`.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = ANIMATE)]
+pub struct Animate {
+    /// The scene and the view of it.
+    #[command(flatten)]
+    pub view: View,
+    /// Where to write, with #### for the frame's number; .exr and .png tell the format; may be repeated.
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub output: Vec<PathBuf>,
+    /// Which frames: 1-100, 1-100x2 or 1-100:2 (every second one), 5,10-20; numbers may be negative. Default: those
+    /// that the path or the day has.
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
+    pub frames: Option<Frames>,
+    /// Frames in a second of the camera's path.
+    #[arg(long, default_value_t = 24.0, value_name = "N", value_parser = rate)]
+    pub fps: f64,
+    /// Frame that shows second 0 of the path and the first time of the day.
+    #[arg(long, default_value_t = 1, value_name = "FRAME", allow_hyphen_values = true)]
+    pub first: i32,
+    /// Through a day, a frame for each time: FROM..TO/STEP by the clock of the [site] on its date, such as
+    /// 05:00..19:00/10min. Sun and weather move.
+    #[arg(long, value_name = "FROM..TO/STEP")]
+    pub time: Option<Day>,
+    /// Make frames again whose files exist; without it they are skipped, so that a run that ended early goes on.
+    #[arg(long)]
+    pub overwrite: bool,
+    /// How they become files.
+    #[command(flatten)]
+    pub develop: Develop,
+}
+
+/// What stands below the options of `keikan animate --help`.
+const ANIMATE: &str = "\
+Examples:
+  keikan animate walk.toml -o frames/####.exr -o frames/####.png --exposure 900
+      the whole path of the first camera, 24 frames a second
+  keikan animate walk.toml -o frames/####.exr --frames 1-100x2 --fps 12
+      every second frame from 1 to 99
+  keikan animate -o day-###.png --time 05:00..19:00/10min --exposure 2000
+      85 frames of the embedded scene from five in the morning to seven in the evening
+
+The folder of the files must exist. Each file is written whole or not at all. Without --exposure every PNG is exposed
+by itself, so that brightness may flicker.";
+
+/// How a picture becomes files.
+#[derive(Args, Clone, Debug)]
+pub struct Develop {
     /// A further layer in the EXR for every light.
     #[arg(long)]
     pub layers: bool,
@@ -192,6 +248,13 @@ impl FromStr for Span {
             }
             _ => Err("MIN:MAX in cd/m², 0 ≤ MIN < MAX, or auto".to_owned()),
         }
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
+        _ => Err("a number from 0.001 to 1000000 is needed".to_owned()),
     }
 }
 

@@ -31,6 +31,9 @@ pub enum Error {
     /// Ctrl-C: exit code 130.
     #[error("interrupted; nothing was written")]
     Interrupted,
+    /// Ctrl-C after so many frames of several: exit code 130.
+    #[error("interrupted; {0} frames were written before, each whole, and are skipped when it is run again")]
+    InterruptedAfter(usize),
 }
 
 impl Error {
@@ -47,7 +50,7 @@ impl Error {
         match self {
             Self::Usage(_) => 2,
             Self::Scene(_) | Self::Content(_) | Self::Output { .. } | Self::Input { .. } => 1,
-            Self::Interrupted => 130,
+            Self::Interrupted | Self::InterruptedAfter(_) => 130,
         }
     }
 }

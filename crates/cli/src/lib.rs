@@ -1,25 +1,29 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `plan`, `lux`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `compare`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
 //! **Leaves out.** Any model of light: those are the chapters'.
 
+mod animate;
 pub mod args;
 pub mod assemble;
 mod caption;
 mod command;
 pub mod compare;
 mod error;
+pub mod frames;
 pub mod knobs;
 pub mod lux;
 pub mod output;
 pub mod pipeline;
 pub mod plan;
 mod progress;
+mod publish;
 pub mod report;
 pub mod shadows;
+pub mod studio;
 
 pub use command::run;
 pub use error::Error;

@@ -19,7 +19,8 @@ pub(crate) fn monitor() -> Arc<Monitor> {
         heard.interrupted.store(true, Ordering::Relaxed);
         // Before rendering there is nothing to clean up, and whoever asks twice does not want to wait.
         if !heard.rendering.load(Ordering::Relaxed) || heard.asked.swap(true, Ordering::Relaxed) {
-            eprintln!("keikan: {}", Error::Interrupted);
+            // Not "nothing was written": of several frames some may have been.
+            eprintln!("keikan: interrupted");
             std::process::exit(i32::from(Error::Interrupted.exit_code()));
         }
     });

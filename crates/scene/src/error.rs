@@ -23,6 +23,9 @@ pub enum Error {
         /// What was given, what is wrong with it and what was possible.
         what: String,
     },
+    /// A time was asked for at which the sun's position is not known.
+    #[error("the sun's position is known for the years 1 to 2999 only")]
+    Time,
 }
 
 impl Error {

@@ -15,7 +15,9 @@ use serde::Deserialize;
 pub(crate) use placed::{
     ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable,
 };
-pub(crate) use seen::{CameraTable, GridTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable};
+pub(crate) use seen::{
+    CameraTable, Ease, GridTable, KeyTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable,
+};
 pub(crate) use solids::SolidTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
 

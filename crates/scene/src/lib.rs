@@ -1,7 +1,7 @@
 //! A scene as plain, checked data, and the only readers of files.
 //!
 //! **Answers.** [`load`] turns a scene file (TOML), a glTF/GLB model and everything they name (textures,
-//! IES and EULUMDAT photometry, terrain points) into one [`Scene`]: metres, +Y up, recentred, every index in
+//! IES and EULUMDAT photometry, terrain points, EPW weather) into one [`Scene`]: metres, +Y up, recentred, every index in
 //! range, every number finite. It is the last place where anything can fail on input.
 //!
 //! ```
@@ -21,6 +21,8 @@
 //! Lambertian. Positions become f32 about the scene's middle: half a
 //! millimetre off at 8 km.
 
+mod camera_path;
+mod daylight;
 mod document;
 mod error;
 mod file;
@@ -34,10 +36,14 @@ mod scene;
 mod solid;
 mod sun;
 pub mod triangulate;
+pub mod weather;
 
+pub use camera_path::CameraPath;
+pub(crate) use daylight::Daylight;
 pub use error::{Error, Warning};
 pub use load::{MAX_BYTES, load, parse, schema};
 pub use material::{Material, NormalMap, UvTransform, Volume};
 pub use scene::*;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
+pub use weather::Weather;

@@ -12,6 +12,7 @@ mod lamps;
 mod materials;
 mod models;
 mod names;
+mod paths;
 mod placement;
 mod punctual;
 mod recentre;
@@ -25,6 +26,7 @@ use crate::document::{Document, Spot};
 use crate::file::SceneFile;
 use crate::{Error, Scene, Sky, Warning, regular_file};
 use draft::Draft;
+pub(crate) use placement::look_along;
 
 /// The longest scene file that is read \[bytes\].
 pub const MAX_BYTES: u64 = 256 << 20;
@@ -78,10 +80,8 @@ pub fn parse(toml_text: &str, folder: &Path, path_for_messages: &Path) -> Result
     let document = Document { text, path: path_for_messages.to_path_buf(), folder: folder.to_path_buf() };
     let file: SceneFile = toml::from_str(text).map_err(|error| document.syntax(&error))?;
     let root = document.root();
-    let mut draft = Draft { site: site::site(&root, file.site.as_ref())?, ..Draft::default() };
-    draft.sun = site::sun(&root, &file, &draft.site)?;
-    draft.sun_is_open = file.sun.is_none() && file.site.as_ref().is_none_or(|site| site.time.is_none());
-    draft.sky = site::sky(&root, &file)?;
+    let mut draft = Draft::default();
+    site::daylight(&root, &file, &mut draft)?;
     draft.settings = settings::settings(&root, &file)?;
     reserved(&root, &file, &mut draft.warnings);
     place(&root, &file, &mut draft)?;
@@ -95,11 +95,12 @@ pub fn schema() -> serde_json::Value {
 
 /// A model as a scene.
 fn model(path: &Path) -> Result<Scene, Error> {
-    let sky = Some(Sky { model: "clear".to_owned(), illuminance: None });
+    let sky = Some(Sky { model: "clear".to_owned(), illuminance: None, weather: None });
     let mut draft = Draft { sky, sun_is_open: true, ..Draft::default() };
     models::add_file(&mut draft, path)?;
     if draft.sun.is_none() {
         draft.sun = draft.site.sun();
+        draft.daylight.sun_follows = true;
     }
     ground::add(&mut draft, &path.display().to_string());
     Ok(draft.finish(&path.display().to_string()))

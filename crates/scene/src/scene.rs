@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, Vec3};
 use light::{Distribution, Geometry, Projection};
 
-use crate::{Material, Solid, Warning};
+use crate::{CameraPath, Daylight, Material, Solid, Warning, Weather};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -37,6 +37,8 @@ pub struct Scene {
     pub settings: BTreeMap<String, String>,
     /// What was repaired on the way.
     pub warnings: Vec<Warning>,
+    /// How sun and sky follow from the time.
+    pub(crate) daylight: Daylight,
 }
 
 /// Place, time, north.
@@ -148,6 +150,8 @@ pub struct Sky {
     pub model: String,
     /// Horizontal diffuse illuminance \[lx\]; none = the model's own.
     pub illuminance: Option<f64>,
+    /// What was observed at this time of the year, if the file names a weather file.
+    pub weather: Option<Weather>,
 }
 
 /// An eye.
@@ -165,6 +169,8 @@ pub struct Camera {
     pub aspect: Option<f64>,
     /// Nearest visible depth \[m\].
     pub near: f64,
+    /// Where it goes, if it moves; the rest is how it stands at the path's beginning ([`Camera::at`]).
+    pub path: Option<CameraPath>,
 }
 
 /// Points at which illuminance is asked for.

@@ -239,6 +239,32 @@ fn cameras_see_what_their_keys_say() {
     assert_eq!((plan.aspect, plan.near), (Some(1.5), 0.5));
 }
 
+/// Map coordinates: the path moves with the scene; a picture without a time shows its beginning.
+#[test]
+fn cameras_go_their_ways() {
+    let scene = scene(
+        "[[model]]\nbox = { size = [2, 3, 4] }\nposition = [500000, 0, -4000000]\n[[camera]]\nname = 'walk'\n\
+         target = [500000, 1, -4000000]\nfield_of_view = 90\npath = [\n{ time = 1, position = [500010, 2, -4000000] },\n\
+         { time = 3, position = [500000, 2, -3999990], field_of_view = 40, target = [500000, 2, -4000000] }]\n",
+    );
+    let walk = &scene.cameras[0];
+    let origin = DVec3::new(500_000.0, 0.0, -4_000_000.0);
+    // The middle of the box is 1.5 m high, in whole metres 2.
+    assert_eq!(scene.origin, origin + DVec3::Y * 2.0);
+    assert_eq!(walk.path.as_ref().map(|path| path.seconds()), Some([1.0, 3.0]));
+    assert_eq!(walk.position, DVec3::new(10.0, 0.0, 0.0));
+    assert_eq!(walk.at(1.0), *walk);
+    assert_eq!(walk.at(9.0).position, DVec3::new(0.0, 0.0, 10.0));
+    assert!((walk.at(9.0).world_from_camera * DVec3::NEG_Z - DVec3::NEG_Z).length() < 1e-12);
+    let tan = |camera: &keikan_scene::Camera| match camera.projection {
+        Projection::Perspective { tan_half_height } => tan_half_height,
+        Projection::Orthographic { half_height } => half_height,
+    };
+    // tan 45° = 1 and tan 20° = 0.36397, and half-way between them by symmetry.
+    assert!((tan(walk) - 1.0).abs() < 1e-12 && (tan(&walk.at(3.0)) - 0.363_970_234).abs() < 1e-8);
+    assert!((tan(&walk.at(2.0)) - 0.5 * (1.0 + 0.363_970_234)).abs() < 1e-8);
+}
+
 #[test]
 fn sensors_count_in_the_stated_order() {
     let points = |keys: &str| scene(&format!("[[sensor]]\n{keys}\n")).sensors.remove(0).points;
@@ -375,6 +401,31 @@ const WRONG: &[(&str, &str)] = &[
     ("[[sensor]]\npoints = []", "needs at least one point"),
     ("[sun]\naltitude = 10", "[sun], key \"azimuth\": is required beside altitude"),
     ("[sun]\ntemperature = 5000", "needs altitude and azimuth, or a [site]"),
+    ("[site]\nlatitude = -90.5\nlongitude = 0", "-90.5 is not within [-90, 90] degrees"),
+    (
+        "[site]\nlatitude = 0\nlongitude = 0\ntime = '2027-02-29T10:00+09:00'",
+        "line 4, column 8, [site], key \"time\": \"2027-02-29T10:00+09:00\": ",
+    ),
+    (
+        "[sky]\nweather = 'a.epw'",
+        "[sky], key \"weather\": needs a [site] with a time; write it like 2026-06-21",
+    ),
+    ("[[camera]]\nposition = [0,0,0]\npath = [{time=0, position=[0,0,0]}]", "is not possible beside path"),
+    ("[[camera]]\ntarget = [0,0,9]\npath = []", "0 keys: from 1 to 100000"),
+    ("[[camera]]\npath = [{time=0, position=[0,0,0]}]", "key \"path.1.target\": is required, here or for"),
+    (
+        "[[camera]]\ntarget = [0,0,9]\npath = [{time=1, position=[0,0,0]},\n {time=1, position=[1,0,0]}]",
+        "line 4, column 8, [[camera]] 1, key \"path.2.time\": 1 does not rise above 1",
+    ),
+    ("[[camera]]\ntarget = [0,0,9]\npath = [{time=nan, position=[0,0,0]}]", "NaN is not within"),
+    ("[[camera]]\ntarget = [0,0,9]\npath = [{time=0, position=[0,0,9]}]", "the camera's own position"),
+    ("[[camera]]\ntarget = [0,0,9]\npath = [{time=0, position=[0,0,0], fov=3}]", "unknown field `fov`"),
+    (
+        "[[camera]]\ndirection = [0,0,9]\northographic = 3\npath = [{time=0, position=[0,0,0], field_of_view=3}]",
+        "is not possible for an orthographic camera",
+    ),
+    ("[[camera]]\ntarget = [0,0,9]\nposition = [0,0,0]\nease = 'linear'", "is for cameras with a path"),
+    ("[[camera]]\ntarget = [0,0,9]\nease = 'bouncy'\npath = []", "expected `smooth` or `linear`"),
     ("[settings]\na = nan", "NaN is not possible"),
     ("[settings]\na = [1]", "expected a string, a number, true, false"),
     ("a = ", "line 1, column "),

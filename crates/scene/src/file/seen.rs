@@ -1,5 +1,7 @@
 //! Tables of place, time and what is asked: site, sun, sky, cameras, sensors.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,13 +11,13 @@ use super::Moment;
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct SiteTable {
-    /// Degrees, north positive. Required.
+    /// Degrees, north positive. Required, but with a weather file: then the station's.
     #[schemars(range(min = -90.0, max = 90.0))]
     pub(crate) latitude: Option<f64>,
-    /// Degrees, EAST positive. Required.
+    /// Degrees, EAST positive. Required, but with a weather file: then the station's.
     #[schemars(range(min = -180.0, max = 180.0))]
     pub(crate) longitude: Option<f64>,
-    /// Height above the sea [m]. Default 0.
+    /// Height above the sea [m]. Default 0, or the station's if its place is taken over.
     #[schemars(range(min = -500.0, max = 9000.0))]
     pub(crate) elevation: Option<f64>,
     /// ISO-8601 with offset: `2026-06-21T10:00:00+09:00`. With it, the sun shines by default.
@@ -59,6 +61,8 @@ pub(crate) struct SkyTable {
     pub(crate) model: Option<String>,
     /// Horizontal diffuse illuminance [lx]. Default: the model's own.
     pub(crate) illuminance: Option<f64>,
+    /// An EnergyPlus weather file (`.epw`), relative to this file; needs a `[site] time`.
+    pub(crate) weather: Option<PathBuf>,
     /// Further keys are handed to the model as settings `sky.KEY`.
     #[serde(flatten)]
     pub(crate) more: std::collections::BTreeMap<String, super::Setting>,
@@ -88,6 +92,37 @@ pub(crate) struct CameraTable {
     pub(crate) aspect: Option<f64>,
     /// Nothing nearer than this is seen [m]. Default 0.01.
     pub(crate) near: Option<f64>,
+    /// Where it goes, in place of `position`: keys in the order of their times.
+    pub(crate) path: Option<Vec<KeyTable>>,
+    /// How it goes from key to key. Default `smooth`.
+    pub(crate) ease: Option<Ease>,
+}
+
+/// How a camera goes from key to key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Ease {
+    /// On a curve without kinks, without jumps of speed.
+    #[default]
+    Smooth,
+    /// Straight, at an even speed between two keys.
+    Linear,
+}
+
+/// Where a camera is at a time.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct KeyTable {
+    /// Seconds from the beginning; may be negative.
+    pub(crate) time: f64,
+    /// Where [m].
+    pub(crate) position: [f64; 3],
+    /// The point in the middle of the picture [m]. Default: the camera's `target` or `direction`.
+    #[serde(default)]
+    pub(crate) target: Option<[f64; 3]>,
+    /// Vertical, degrees. Default: the camera's.
+    #[serde(default)]
+    pub(crate) field_of_view: Option<f64>,
 }
 
 /// Points at which illuminance is asked for. Exactly one of points, line, grid.

@@ -8,7 +8,7 @@ use light::{Geometry, Instance, Mesh};
 
 use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
-use crate::{AreaLight, Camera, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
+use crate::{AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
 /// 16384 is 0.98 mm.
@@ -27,6 +27,7 @@ pub(crate) struct Draft {
     /// False where the file decides about the sun itself, so that a model's does not count.
     pub(crate) sun_is_open: bool,
     pub(crate) sky: Option<Sky>,
+    pub(crate) daylight: Daylight,
     pub(crate) cameras: Vec<Camera>,
     pub(crate) sensors: Vec<Sensor>,
     pub(crate) settings: BTreeMap<String, String>,
@@ -100,7 +101,7 @@ impl Draft {
         });
         self.lights.iter_mut().for_each(|light| light.position -= origin);
         self.area_lights.iter_mut().for_each(|light| light.position -= origin);
-        self.cameras.iter_mut().for_each(|camera| camera.position -= origin);
+        self.cameras.iter_mut().for_each(|camera| camera.shift(-origin));
         self.sensors.iter_mut().flat_map(|sensor| &mut sensor.points).for_each(|point| *point -= origin);
         self.fill();
         self.warn(name);
@@ -118,6 +119,7 @@ impl Draft {
             sensors: self.sensors,
             settings: self.settings,
             warnings: self.warnings,
+            daylight: self.daylight,
         }
     }
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use light::Projection;
 
+use super::paths;
 use super::placement::look_along;
 use crate::document::Spot;
 use crate::file::{CameraTable, GridTable, LineTable, SensorTable};
@@ -16,41 +17,54 @@ pub(crate) const MOST_POINTS: u64 = 10_000_000;
 
 /// The camera of one table.
 pub(crate) fn camera(spot: &Spot<'_>, number: usize, table: &CameraTable) -> Result<Camera, Error> {
-    let at = spot.key("position");
-    let position = at.point(at.required(table.position)?)?;
-    let axis = match (table.target, table.direction) {
-        (Some(target), None) => {
-            let spot = spot.key("target");
-            let way = spot.point(target)? - position;
-            way.try_normalize()
-                .ok_or_else(|| spot.error("is the camera's own position: look at another point"))?
-        }
-        (None, Some(direction)) => spot.key("direction").direction(direction)?,
-        (target, direction) => {
-            spot.exactly_one(&[("target", target.is_some()), ("direction", direction.is_some())])?;
-            DVec3::NEG_Z
-        }
-    };
     let up = spot.key("up").direction(table.up.unwrap_or([0.0, 1.0, 0.0]))?;
     let aspect = table.aspect.map(|a| spot.key("aspect").within(a, 0.01, 100.0, "")).transpose()?;
-    Ok(Camera {
+    let mut camera = Camera {
         name: table.name.clone().unwrap_or_else(|| format!("camera-{number}")),
-        position,
-        world_from_camera: look_along(axis, up),
+        position: DVec3::ZERO,
+        world_from_camera: look_along(DVec3::NEG_Z, up),
         projection: projection(spot, table)?,
         aspect,
         near: spot.key("near").positive(table.near.unwrap_or(0.01), 1e6, "m")?,
-    })
+        path: None,
+    };
+    if let Some(keys) = &table.path {
+        let path = paths::path(spot, table, keys, up, camera.projection)?;
+        let [first, _] = path.seconds();
+        camera.path = Some(path);
+        // A picture without a time shows where it begins.
+        return Ok(camera.at(first));
+    }
+    if table.ease.is_some() {
+        return Err(spot.key("ease").error("is for cameras with a path"));
+    }
+    let at = spot.key("position");
+    camera.position = at.point(at.required(table.position)?)?;
+    camera.world_from_camera = look_along(axis(spot, table, camera.position)?, up);
+    Ok(camera)
+}
+
+/// Where a camera at `position` looks.
+fn axis(spot: &Spot<'_>, table: &CameraTable, position: DVec3) -> Result<DVec3, Error> {
+    match (table.target, table.direction) {
+        (Some(target), None) => {
+            let spot = spot.key("target");
+            let way = spot.point(target)? - position;
+            way.try_normalize().ok_or_else(|| spot.error(paths::ITSELF))
+        }
+        (None, Some(direction)) => spot.key("direction").direction(direction),
+        (target, direction) => {
+            spot.exactly_one(&[("target", target.is_some()), ("direction", direction.is_some())])?;
+            Ok(DVec3::NEG_Z)
+        }
+    }
 }
 
 fn projection(spot: &Spot<'_>, table: &CameraTable) -> Result<Projection, Error> {
     let perspective = |tan_half_height| Projection::Perspective { tan_half_height };
-    let field = |degrees: f64| perspective((0.5 * degrees.to_radians()).tan());
     match (table.field_of_view, table.focal_length, table.orthographic) {
-        (None, None, None) => Ok(field(40.0)),
-        (Some(degrees), None, None) => {
-            Ok(field(spot.key("field_of_view").within(degrees, 0.01, 170.0, "degrees")?))
-        }
+        (None, None, None) => Ok(perspective(half_of(40.0))),
+        (Some(degrees), None, None) => field_of_view(spot, degrees).map(perspective),
         (None, Some(mm), None) => {
             let mm = spot.key("focal_length").within(mm, 1.0, 100_000.0, "mm")?;
             Ok(perspective(0.5 * FRAME_HEIGHT / mm))
@@ -61,6 +75,16 @@ fn projection(spot: &Spot<'_>, table: &CameraTable) -> Result<Projection, Error>
         }
         _ => Err(spot.error("only one of field_of_view, focal_length, orthographic is possible")),
     }
+}
+
+/// tan of half of a vertical field in degrees.
+fn half_of(degrees: f64) -> f64 {
+    (0.5 * degrees.to_radians()).tan()
+}
+
+/// The key `field_of_view` of this table as tan of half of it.
+pub(crate) fn field_of_view(spot: &Spot<'_>, degrees: f64) -> Result<f64, Error> {
+    Ok(half_of(spot.key("field_of_view").within(degrees, 0.01, 170.0, "degrees")?))
 }
 
 /// The sensor of one table, which may have at most `left` points.

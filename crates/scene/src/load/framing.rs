@@ -44,6 +44,7 @@ pub(crate) fn frame(geometry: &Geometry, solids: &[Solid]) -> Camera {
         projection: Projection::Perspective { tan_half_height },
         aspect: None,
         near: (1e-3 * distance).clamp(1e-4, 1.0),
+        path: None,
     }
 }
 

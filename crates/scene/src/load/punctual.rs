@@ -118,6 +118,7 @@ pub(crate) fn camera(camera: &ModelCamera, placement: &DAffine3, number: usize) 
         projection: camera.projection,
         aspect: camera.aspect,
         near,
+        path: None,
     })
 }
 

@@ -1,12 +1,17 @@
 //! Place, time, north; and the sun and sky that follow from them.
 
+use std::sync::Arc;
+
 use jiff::Timestamp;
 use jiff::fmt::temporal::Pieces;
 use jiff::tz::Offset;
 
+use super::draft::Draft;
+use crate::daylight::Observed;
 use crate::document::Spot;
 use crate::file::{Moment, SceneFile, SiteTable, SkyTable, SunTable};
-use crate::{Error, SUN_DIAMETER, Site, Sky, Sun};
+use crate::weather::{self, Station};
+use crate::{Error, SUN_DIAMETER, Site, Sky, Sun, Warning};
 
 /// Brightest sun that is believed \[lx\]: the solar constant gives 134,000 lx outside the atmosphere.
 pub(crate) const BRIGHTEST_SUN: f64 = 150_000.0;
@@ -14,16 +19,72 @@ pub(crate) const BRIGHTEST_SUN: f64 = 150_000.0;
 /// An example that messages show.
 const EXAMPLE: &str = "write it like 2026-06-21T10:00:00+09:00";
 
+/// Farther from its station weather is another one \[m\].
+const FAR: f64 = 100_000.0;
+
+/// Place and time, and the sun and sky that follow.
+pub(crate) fn daylight(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Error> {
+    let observed = weather(root, file)?;
+    let station = observed.as_ref().map(|observed| &observed.year.station);
+    draft.site = site(root, file.site.as_ref(), station)?;
+    draft.sun = sun(root, file, &draft.site)?;
+    let timed = file.site.as_ref().is_some_and(|site| site.time.is_some());
+    let placed = file.sun.as_ref().is_some_and(|sun| sun.off || sun.altitude.is_some());
+    draft.daylight.sun_follows = timed && !placed;
+    draft.sun_is_open = file.sun.is_none() && !timed;
+    draft.sky = sky(root, file)?;
+    if let (Some(observed), Some(sky)) = (observed, &mut draft.sky) {
+        draft.warnings.extend(observed.year.warnings.iter().cloned());
+        draft.warnings.extend(too_far(root, &observed.year.station, &draft.site));
+        let (weather, night) = observed.at(&draft.site)?;
+        sky.weather = Some(weather);
+        draft.warnings.extend(night);
+        draft.daylight.observed = Some(observed);
+    }
+    Ok(())
+}
+
+/// The weather file, if `[sky]` names one.
+fn weather(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Arc<Observed>>, Error> {
+    let Some(name) = file.sky.as_ref().filter(|sky| !sky.off).and_then(|sky| sky.weather.as_ref()) else {
+        return Ok(None);
+    };
+    let spot = root.key("sky").key("weather");
+    if file.site.as_ref().is_none_or(|site| site.time.is_none()) {
+        return Err(spot.error(format!("needs a [site] with a time; {EXAMPLE}")));
+    }
+    let path = spot.file(name);
+    let year = weather::read(&path).map_err(|error| super::missing(&spot, error))?;
+    Ok(Some(Arc::new(Observed { path, year })))
+}
+
+fn too_far(root: &Spot<'_>, station: &Station, site: &Site) -> Option<Warning> {
+    let distance = station.distance(site.latitude, site.longitude);
+    let what = || format!("the station {} is {:.0} km away from the [site]", station.name, distance / 1000.0);
+    (distance > FAR).then(|| root.key("sky").key("weather").warning(what()))
+}
+
+/// Latitude, longitude and elevation: as written, or those of the weather's station where neither of the first two is.
+fn place(spot: &Spot<'_>, table: &SiteTable, station: Option<&Station>) -> Result<[f64; 3], Error> {
+    let (latitude, longitude, elevation) = match (table.latitude, table.longitude, station) {
+        (None, None, Some(station)) => (station.latitude, station.longitude, station.elevation),
+        (latitude, longitude, _) => {
+            let latitude = spot.key("latitude").required(latitude)?;
+            (latitude, spot.key("longitude").required(longitude)?, 0.0)
+        }
+    };
+    Ok([
+        spot.key("latitude").within(latitude, -90.0, 90.0, "degrees")?,
+        spot.key("longitude").within(longitude, -180.0, 180.0, "degrees, east positive")?,
+        spot.key("elevation").within(table.elevation.unwrap_or(elevation), -500.0, 9000.0, "m")?,
+    ])
+}
+
 /// The site; the default one where the file has none.
-pub(crate) fn site(root: &Spot<'_>, table: Option<&SiteTable>) -> Result<Site, Error> {
+fn site(root: &Spot<'_>, table: Option<&SiteTable>, station: Option<&Station>) -> Result<Site, Error> {
     let Some(table) = table else { return Ok(Site::default()) };
     let spot = root.key("site");
-    let latitude = spot.key("latitude");
-    let latitude = latitude.within(latitude.required(table.latitude)?, -90.0, 90.0, "degrees")?;
-    let longitude = spot.key("longitude");
-    let longitude =
-        longitude.within(longitude.required(table.longitude)?, -180.0, 180.0, "degrees, east positive")?;
-    let elevation = spot.key("elevation").within(table.elevation.unwrap_or(0.0), -500.0, 9000.0, "m")?;
+    let [latitude, longitude, elevation] = place(&spot, table, station)?;
     let north = spot.key("north").within(table.north.unwrap_or(0.0), -360.0, 360.0, "degrees")?;
     let default = Site::default();
     let (time, offset) = match &table.time {
@@ -32,7 +93,7 @@ pub(crate) fn site(root: &Spot<'_>, table: Option<&SiteTable>) -> Result<Site, E
     };
     let site = Site { latitude, longitude, elevation, time, offset, north };
     if site.sun().is_none() {
-        return Err(spot.key("time").error("the sun's position is known for the years 1 to 2999 only"));
+        return Err(spot.key("time").error(Error::Time.to_string()));
     }
     Ok(site)
 }
@@ -61,7 +122,7 @@ fn time(spot: &Spot<'_>, moment: &Moment) -> Result<(Timestamp, Offset), Error> 
 
 /// The sun: as `[sun]` says, else that of place and time if the file gives both. Below the horizon it stays
 /// where it is: it lights nothing, but a sky at dusk asks where it went.
-pub(crate) fn sun(root: &Spot<'_>, file: &SceneFile, site: &Site) -> Result<Option<Sun>, Error> {
+fn sun(root: &Spot<'_>, file: &SceneFile, site: &Site) -> Result<Option<Sun>, Error> {
     let timed = file.site.as_ref().is_some_and(|site| site.time.is_some());
     let Some(table) = &file.sun else { return Ok(if timed { site.sun() } else { None }) };
     if table.off {
@@ -104,11 +165,11 @@ fn explicit(spot: &Spot<'_>, table: &SunTable, site: &Site) -> Result<Option<Sun
 }
 
 /// The sky: as `[sky]` says, else a clear one where place and time are given.
-pub(crate) fn sky(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Sky>, Error> {
+fn sky(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Sky>, Error> {
     let timed = file.site.as_ref().is_some_and(|site| site.time.is_some());
-    let clear = || Sky { model: "clear".to_owned(), illuminance: None };
+    let clear = || Sky { model: "clear".to_owned(), illuminance: None, weather: None };
     let Some(table) = &file.sky else { return Ok(timed.then(clear)) };
-    let SkyTable { off, model, illuminance, more: _ } = table;
+    let SkyTable { off, model, illuminance, .. } = table;
     if *off {
         return Ok(None);
     }
@@ -120,5 +181,5 @@ pub(crate) fn sky(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Sky>, Erro
             .error("is empty; clear, overcast and uniform are among the possible names"));
     }
     let illuminance = illuminance.map(|lx| spot.key("illuminance").within(lx, 0.0, 1e6, "lx")).transpose()?;
-    Ok(Some(Sky { model, illuminance }))
+    Ok(Some(Sky { model, illuminance, weather: None }))
 }

@@ -1,0 +1,104 @@
+//! From a loaded scene to the film of one frame: the one place where a pipeline is assembled for a picture.
+
+use std::sync::atomic::Ordering;
+
+use light::Film;
+use scene::Scene;
+
+use crate::pipeline::Monitor;
+use crate::plan::{MOST_PIXELS, Plan};
+use crate::report::Timings;
+use crate::{Error, args, assemble, progress};
+
+/// A scene, and how it is looked at. Whatever may be kept from one frame to the next belongs here.
+pub struct Studio {
+    scene: Scene,
+    view: args::View,
+    layers: bool,
+}
+
+/// What of a scene differs from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameSpec {
+    /// Where the camera is on its path \[s\]; none = as the scene has it.
+    pub seconds: Option<f64>,
+    /// Seconds after local midnight of the site's date; none = the site's own time.
+    pub clock: Option<f64>,
+}
+
+/// A frame as it was taken.
+pub struct Shot {
+    /// The scene as it was then.
+    pub scene: Scene,
+    /// What was decided.
+    pub plan: Plan,
+    /// The picture.
+    pub film: Film,
+}
+
+impl Studio {
+    /// With `layers`, films have a further layer for every light.
+    pub fn new(scene: Scene, view: args::View, layers: bool) -> Self {
+        Self { scene, view, layers }
+    }
+
+    /// The scene as it was loaded.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene as `spec` wants it, and what is decided for it; builds nothing.
+    ///
+    /// # Errors
+    /// A camera, knob or size that cannot be; a time that the scene cannot have.
+    pub fn set_up(&self, spec: &FrameSpec) -> Result<(Scene, Plan), Error> {
+        let mut scene = match spec.clock {
+            None => self.scene.clone(),
+            Some(clock) => {
+                let beyond =
+                    || Error::Usage(format!("--time: {clock} s after midnight are beyond the calendar"));
+                self.scene.at_time(self.scene.site.at_local(clock).ok_or_else(beyond)?)?
+            }
+        };
+        let plan = Plan::new(&scene, &self.view)?;
+        if let (Some(seconds), Some(camera)) = (spec.seconds, scene.cameras.get_mut(plan.eye)) {
+            *camera = camera.at(seconds);
+        }
+        Ok((scene, plan))
+    }
+
+    /// Takes one frame; the monitor is told, and `seconds` get what its stages took.
+    ///
+    /// # Errors
+    /// As [`Self::set_up`]; [`Error::Interrupted`] when the monitor says so.
+    pub fn frame(
+        &mut self,
+        spec: &FrameSpec,
+        monitor: &Monitor,
+        seconds: &mut Timings,
+    ) -> Result<Shot, Error> {
+        let (scene, plan) = self.set_up(spec)?;
+        fits(&plan, &scene, self.layers)?;
+        let pipeline = seconds.time("assemble", || assemble::assemble(&plan, &scene))?;
+        monitor.rendering.store(true, Ordering::Relaxed);
+        monitor.rows.store(0, Ordering::Relaxed);
+        let film = seconds.time("render", || {
+            progress::shown(monitor, plan.region.rows.len() as u64, || {
+                pipeline.render(&plan.region, self.layers, monitor)
+            })
+        })?;
+        Ok(Shot { scene, plan, film })
+    }
+}
+
+/// Whether all layers can be held in memory.
+fn fits(plan: &Plan, scene: &Scene, layers: bool) -> Result<(), Error> {
+    let layers = if layers { (scene.lights.len() + scene.area_lights.len()) as u64 + 4 } else { 1 };
+    let pixels = plan.region.columns.len() as u64 * plan.region.rows.len() as u64;
+    if pixels.saturating_mul(layers) > MOST_PIXELS {
+        return Err(Error::Usage(format!(
+            "--layers: {layers} layers of {pixels} pixels are more than {MOST_PIXELS} pixels in all; render a part with --region"
+        )));
+    }
+    Ok(())
+}
