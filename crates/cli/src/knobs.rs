@@ -204,7 +204,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "body.tolerance",
         domain: Domain::Number(0.0, 1.0),
-        presets: ["0.05", "0.03", "0"],
+        presets: ["0", "0.01", "0"],
         doc: "places look alike that differ by no more than this share of their radiance; 0 looks at all of them",
     },
     Knob {
