@@ -6,7 +6,7 @@ use glam::Vec3;
 use light::{Bodies, Geometry, Illuminate, Spectrum};
 use scene::Scene;
 use sky::map::{Described, Mapped};
-use sky::{BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, Scale, WholeSky};
+use sky::{BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, Perez, Scale, WholeSky};
 
 use super::lights::{beam, risen};
 use crate::knobs::Settings;
@@ -46,6 +46,7 @@ fn describe(scene: &Scene, settings: &Settings, model: Model) -> Description {
     let conditions = Conditions {
         scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
         elevation_m: scene.site.elevation,
+        weather: sun.and_then(|sun| weather(scene, sun)),
         ..Conditions::new(toward_sun)
     };
     Description {
@@ -59,6 +60,24 @@ fn describe(scene: &Scene, settings: &Settings, model: Model) -> Description {
         ..Description::new(model.sky(&conditions))
     }
 }
+
+/// The observed state of the sky, as Perez' model takes it.
+fn weather(scene: &Scene, sun: &scene::Sun) -> Option<Perez> {
+    let observed = scene.sky.as_ref()?.weather.as_ref()?;
+    Some(Perez::new(observed.direct_normal, observed.diffuse_horizontal, sun.altitude, None))
+}
+
+/// Illuminance by the observed sun on a plane that faces it \[lx\].
+pub(super) fn observed_sun(scene: &Scene, sun: &scene::Sun) -> Option<f32> {
+    let dew_point = scene.sky.as_ref()?.weather.as_ref()?.dew_point;
+    // Water vapour above the ground by the dew point, as Perez' efficacies take it.
+    let water = dew_point.map_or(PRECIPITABLE_WATER, |celsius| (0.07 * celsius - 0.075).exp());
+    let [_, direct] = weather(scene, sun)?.illuminances(water);
+    Some(direct as f32)
+}
+
+/// Water vapour above the ground where nothing is known of it \[cm\]: it changes luminous efficacies by some per cent.
+const PRECIPITABLE_WATER: f64 = 2.0;
 
 /// How much of the sky a place sees: the cuboid, bands, or rays.
 fn seen(

@@ -82,7 +82,7 @@ pub(super) fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
         Some(spectrum) => colour(spectrum).of_luminance(own.luminance()),
         None => own,
     };
-    match sun.illuminance {
+    match sun.illuminance.or(heavens::observed_sun(scene, sun).map(f64::from)) {
         // A stated illuminance of a sun whose own beam has faded away is white.
         Some(lux) if coloured.is_zero() => Spectrum::ONE.of_luminance(lux as f32),
         Some(lux) => coloured.of_luminance(lux as f32),

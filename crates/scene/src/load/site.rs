@@ -174,7 +174,8 @@ fn sky(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Sky>, Error> {
         return Ok(None);
     }
     let spot = root.key("sky");
-    let model = model.clone().unwrap_or_else(|| clear().model);
+    let own = || if table.weather.is_some() { "perez".to_owned() } else { clear().model };
+    let model = model.clone().unwrap_or_else(own);
     if model.is_empty() {
         return Err(spot
             .key("model")
