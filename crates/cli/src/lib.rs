@@ -13,6 +13,7 @@ mod command;
 pub mod compare;
 mod error;
 pub mod knobs;
+mod looks;
 pub mod lux;
 pub mod output;
 pub mod pipeline;
