@@ -223,7 +223,7 @@ fn a_ball_of_glass_lacks_what_is_still_inside() {
 }
 
 #[test]
-fn light_grows_with_depth_to_all_and_never_beyond() {
+fn light_grows_with_depth_and_is_never_more_than_there_is() {
     for material in [GLASS, MIRROR] {
         for (name, body) in BODIES {
             let mut before = vec![0.0; (SIZE.0 * SIZE.1) as usize];
