@@ -148,7 +148,7 @@ fn rays_alone_show_what_the_default_shows() {
         let (a, b) = (f64::from(ours[i]), f64::from(theirs[i]));
         if what == Shows::Body {
             bodies += 1;
-            // What is mirrored lies farther apart than its mirror images: reported, not bounded.
+            // What is mirrored lies farther apart than its mirror images.
             mirrored = mirrored.max((a - b).abs() / a.max(b));
             continue;
         }
@@ -170,5 +170,10 @@ fn rays_alone_show_what_the_default_shows() {
          (mirrored light to {mirrored:.1e}); {apart} of {shadow_edges} with an edge of shadow alone differ by more than rounding, {most:.1e} at most",
         found.len()
     );
-    assert!(faces > 1000 && bodies > 200, "{faces} {bodies}");
+    println!("{} pixels with edges of faces are left out", found.len() - faces - bodies - shadow_edges);
+    assert!(faces > 1000 && bodies > 200 && shadow_edges > 500, "{faces} {bodies} {shadow_edges}");
+    // Mirrored places may fall to the other side of an edge of light, a sliver lies within one strip of eight: neither has a
+    // bound by reasoning, so these are thrice what is measured (6.8e-3; 4 pixels of 777, 4.7e-3 at most).
+    assert!(mirrored < 0.02, "{mirrored}");
+    assert!(apart <= 12 && most < 0.015, "{apart} {most}");
 }

@@ -199,13 +199,13 @@ pub const KNOBS: &[Knob] = &[
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],
-        doc: "places at which a curved, mirroring or clear [[solid]] is looked at in a pixel, where a fourth of them do not look alike",
+        doc: "places at which a curved, mirroring or clear [[solid]] is looked at in a pixel; where its first fourth, or its first 4, look alike (body.tolerance), at those alone; time grows with it; 4, 8, 16, 64 leave an RMSE of 0.0096, 0.0061, 0.0045, 0.0014 of white in the thesis' figure 2.8 (d)",
     },
     Knob {
         name: "body.tolerance",
         domain: Domain::Number(0.0, 1.0),
         presets: ["0", "0.01", "0"],
-        doc: "places look alike that differ by no more than this share of their radiance; 0 looks at all of them",
+        doc: "places look alike that differ by no more than this share of the brightest of them; of up to 4 places, and at 0, all are looked at",
     },
     Knob {
         name: "ray-depth",

@@ -15,6 +15,7 @@ pub mod compare;
 mod error;
 pub mod frames;
 pub mod knobs;
+mod looks;
 pub mod lux;
 pub mod output;
 pub mod pipeline;

@@ -12,6 +12,8 @@ use light::{
 use rayon::prelude::*;
 
 use crate::Error;
+use crate::looks::Looks;
+use crate::shadows::NUMBERED;
 
 /// A named light.
 pub struct Source {
@@ -212,79 +214,6 @@ impl Pipeline {
     }
 }
 
-/// How many samples of each group of a row are looked at: decided once, so that all layers look at the same ones and
-/// add up to the picture.
-#[derive(Default)]
-struct Looks {
-    decided: Vec<usize>,
-    next: usize,
-}
-
-/// Samples that are looked at in any case: a fourth of them, and no fewer than this.
-const FIRST: usize = 4;
-
-impl Looks {
-    /// Back to the first group.
-    fn rewind(&mut self) {
-        self.next = 0;
-    }
-
-    /// Σ share · radiance of a group: where its first samples are alike, they stand for the others. `radiance` is
-    /// that of a piece times its share.
-    fn sum(&mut self, group: &[Piece], alike: f32, radiance: impl Fn(&Piece) -> Spectrum) -> Spectrum {
-        let [only] = group else { return self.sum_of_many(group, alike, radiance) };
-        radiance(only)
-    }
-
-    fn sum_of_many(
-        &mut self,
-        group: &[Piece],
-        alike: f32,
-        radiance: impl Fn(&Piece) -> Spectrum,
-    ) -> Spectrum {
-        let few = (group.len() / 4).max(FIRST).min(group.len());
-        let decided = self.decided.get(self.next).copied();
-        self.next += 1;
-        let (mut sum, mut share) = (Spectrum::ZERO, 0.0);
-        let mut spread = Spread::default();
-        let mut count = 0;
-        for piece in &group[..decided.unwrap_or(group.len())] {
-            if count == few && decided.is_none() && spread.is_within(alike) {
-                break;
-            }
-            let part = radiance(piece);
-            spread.add(part * piece.share.max(f32::MIN_POSITIVE).recip());
-            sum += part;
-            share += piece.share;
-            count += 1;
-        }
-        if decided.is_none() {
-            self.decided.push(count);
-        }
-        let all: f32 = group.iter().map(|piece| piece.share).sum();
-        if count < group.len() && share > 0.0 { sum * (all / share) } else { sum }
-    }
-}
-
-/// The least and the largest of some spectra, band by band.
-#[derive(Default)]
-struct Spread(Option<[Spectrum; 2]>);
-
-impl Spread {
-    fn add(&mut self, spectrum: Spectrum) {
-        let [least, most] = self.0.unwrap_or([spectrum; 2]);
-        let each = |pick: fn(f32, f32) -> f32, a: Spectrum| {
-            Spectrum(std::array::from_fn(|band| pick(a[band], spectrum[band])))
-        };
-        self.0 = Some([each(f32::min, least), each(f32::max, most)]);
-    }
-
-    /// Whether no band differs by more than a share of the largest; never for a share of 0.
-    fn is_within(&self, share: f32) -> bool {
-        share > 0.0 && self.0.is_none_or(|[least, most]| (most - least).max() <= share * most.max())
-    }
-}
-
 /// The pipeline as one shader sees it: all sources, or those of one layer.
 #[derive(Clone, Copy)]
 struct Around<'a> {
@@ -301,7 +230,7 @@ impl Around<'_> {
     fn ask(&self, sources: impl Iterator<Item = usize>, place: &Place, receive: &mut dyn FnMut(Arrival)) {
         for i in sources {
             let source = &self.pipeline.sources[i].light;
-            let bit = if i < 64 { 1u64 << i } else { 0 };
+            let bit = if i < NUMBERED { 1u64 << i } else { 0 };
             if self.known.lit & bit != 0 {
                 source.arrivals_on(self.face, place, &Vacuum, receive);
             } else if self.known.dark & bit == 0 {
