@@ -6,7 +6,7 @@ use light::Projection;
 use crate::Camera;
 use crate::load::look_along;
 
-/// A way through keys, or an animated node of a model.
+/// A way through keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraPath {
     /// At least one; times rise.

@@ -257,7 +257,7 @@ fn a_real_year_keeps_its_energy() {
     let rows: Vec<Vec<&str>> = rows.map(|(_, line)| line.split(',').collect()).collect();
     let of_rows = |column: usize| -> f64 { rows.iter().map(|row| row[column].parse::<f64>().unwrap()).sum() };
     let (mut direct, mut diffuse, mut brightest) = (0.0, 0.0, 0.0f64);
-    for part in 0..365_i64.div_ceil(9) * 144 {
+    for part in 0..144 * i64::from(365_u32.div_ceil(9)) {
         // From 1 January 2027, local time, the middles of ten minutes.
         let second = 1_798_761_600 - 3600 + 86_400 * 9 * (part / 144) + 600 * (part % 144) + 300;
         let time = jiff::Timestamp::from_second(second).unwrap();
