@@ -96,7 +96,7 @@ pub struct Animate {
     /// Frame that shows second 0 of the path and the first time of the day.
     #[arg(long, default_value_t = 1, value_name = "FRAME", allow_hyphen_values = true)]
     pub first: i32,
-    /// Through a day, a frame for each time: FROM..TO/STEP by the clock of the [site] on its date, such as
+    /// Through a day, a frame for each time: FROM..TO/STEP by the site's clock on its date, such as
     /// 05:00..19:00/10min. Sun and weather move.
     #[arg(long, value_name = "FROM..TO/STEP")]
     pub time: Option<Day>,

@@ -6,7 +6,7 @@ use light::Projection;
 use crate::Camera;
 use crate::load::look_along;
 
-/// A way through keys, or an animated node of a model.
+/// A way through keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraPath {
     /// At least one; times rise.
@@ -75,7 +75,7 @@ impl Span<'_> {
     /// On a curve: the cubic Hermite polynomial of each stretch,
     ///
     /// ```text
-    ///   p(s) = (1 + 2s)(1 − s)² p₁ + s²(3 − 2s) p₂ + T [s(1 − s)² m₁ − s²(1 − s) m₂],   T = t₂ − t₁
+    ///   p(s) = p₁ + s²(3 − 2s) (p₂ − p₁) + T [s(1 − s)² m₁ − s²(1 − s) m₂],   T = t₂ − t₁
     /// ```
     ///
     /// with the velocities m of [`velocity`]: it goes through the keys at their times, and its velocity
@@ -90,16 +90,15 @@ impl Span<'_> {
         let m1 = velocity([t0, t1, t2], [p0, p1, p2]);
         let m2 = velocity([t1, t2, t3], [p1, p2, p3]);
         let r = 1.0 - s;
-        p1 * ((1.0 + 2.0 * s) * r * r)
-            + p2 * (s * s * (3.0 - 2.0 * s))
-            + (m1 * (s * r * r) - m2 * (s * s * r)) * (t2 - t1)
+        p1 + (p2 - p1) * (s * s * (3.0 - 2.0 * s)) + (m1 * (s * r * r) - m2 * (s * s * r)) * (t2 - t1)
     }
 }
 
 /// Velocity at the middle one of three keys \[per s\]: that of the parabola through them (Catmull and Rom's curve with
-/// the times as knots), but at most three times that of the slower side, so that nothing swings beyond keys
-/// that lie on a line, and who waits between two keys stands still (Fritsch and Carlson 1980: a stretch is monotone
-/// if both its ends are at most three times as steep as it is). Nothing at the ends: it starts and stops softly.
+/// the times as knots), without what of it goes back against the way that it came or that it goes, and at most three times
+/// that of the slower side. So nothing swings beyond keys that lie on a line, and who waits between two keys stands
+/// still (Fritsch and Carlson 1980: a stretch is monotone if both its ends are at most three times as steep as it is,
+/// and level where it turns). Nothing at the ends: it starts and stops softly.
 fn velocity([t0, t1, t2]: [f64; 3], [p0, p1, p2]: [DVec3; 3]) -> DVec3 {
     let (before, after) = (t1 - t0, t2 - t1);
     if !(before > 0.0 && after > 0.0) {
@@ -107,7 +106,16 @@ fn velocity([t0, t1, t2]: [f64; 3], [p0, p1, p2]: [DVec3; 3]) -> DVec3 {
     }
     let (came, goes) = ((p1 - p0) / before, (p2 - p1) / after);
     let parabola = (came * after + goes * before) / (before + after);
-    parabola.clamp_length_max(3.0 * came.length().min(goes.length()))
+    let forward = |v: DVec3, way: DVec3| {
+        let back = v.dot(way);
+        if back < 0.0 { v - way * (back / way.length_squared()) } else { v }
+    };
+    let ahead = forward(forward(parabola, came), goes);
+    // Where the way turns back sharply, what does not go against one side may still go against the other.
+    if ahead.dot(came) < 0.0 {
+        return DVec3::ZERO;
+    }
+    ahead.clamp_length_max(3.0 * came.length().min(goes.length()))
 }
 
 impl Camera {

@@ -33,7 +33,7 @@ const PARTS: u32 = 12;
 type Sunshine = [f64; 2];
 
 impl Year {
-    /// The weather at the place and moment of `site`; a moment in words where the file has nothing.
+    /// The weather at the place and moment of `site`.
     ///
     /// A row holds the mean over the hour *before* its time, so it belongs to the middle of that hour. Straight
     /// lines between those middles would shine before sunrise and lose what an hour with a sunrise gives. So means
