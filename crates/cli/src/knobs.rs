@@ -55,6 +55,13 @@ pub struct Knob {
     pub doc: &'static str,
 }
 
+/// What `sky.model` may be: the scene's, a sky by name, or none.
+const SKIES: &[&str] = &[
+    "scene", "clear", "overcast", "uniform", "physical", "thesis", "perez", "cie-1", "cie-2", "cie-3",
+    "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11", "cie-12", "cie-13", "cie-14",
+    "cie-15", "none",
+];
+
 /// All knobs. The costs are those of `docs/measurements`.
 pub const KNOBS: &[Knob] = &[
     Knob {
@@ -125,9 +132,9 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "sky.model",
-        domain: Domain::Choice(&["scene", "clear", "overcast", "uniform", "none"]),
+        domain: Domain::Choice(SKIES),
         presets: ["scene"; 3],
-        doc: "luminance distribution of the sky; scene = what the scene file says",
+        doc: "the sky by name; scene = what the scene file says",
     },
     Knob {
         name: "sky.visibility",
@@ -291,6 +298,15 @@ mod tests {
                 assert!(knob.accepts(value), "{} = {value}", knob.name);
             }
         }
+    }
+
+    #[test]
+    fn every_sky_that_there_is_can_be_asked_for() {
+        let mut skies: Vec<_> = crate::assemble::skies().chain(["scene", "none"]).collect();
+        let mut known = SKIES.to_vec();
+        skies.sort_unstable();
+        known.sort_unstable();
+        assert_eq!(skies, known);
     }
 
     #[test]
