@@ -31,7 +31,7 @@ pub struct Source {
 /// A number that grows while a picture is made.
 pub type Count = Box<dyn Fn() -> u64 + Send + Sync>;
 
-/// How far mirrored and refracted rays are followed.
+/// How far mirrored and refracted rays are followed, and samples looked at.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Turns.

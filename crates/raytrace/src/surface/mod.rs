@@ -13,6 +13,10 @@
 //!
 //! k_t T is added by [`Glass`].
 //!
+//! Every hit stands for a bundle of rays ([`light::Hit::width`]), which bent surfaces spread: highlights are as wide as its
+//! normals make them. Below a roughness of 0.07 surfaces turn into mirrors, which show sources as soft discs of their
+//! angular size, and sources without extent as glints as wide as the bundle.
+//!
 //! **Leaves out.** Layers of lacquer, anisotropy, sheen, subsurface scattering but for leaves
 //! ([`Finish::diffuse_transmission`]).
 //!
