@@ -175,11 +175,21 @@ fn fill(face: &Face, bits: &mut Coverage, inward: &[DVec3; 3], x: [usize; 2], y:
                 Line::Along { .. } => high = -1.0,
             }
         }
-        let (low, high) = (low.ceil(), high.floor());
         if low <= high {
-            bits.cover(row, low as usize, high as usize);
+            // Neither is negative: truncation is the floor.
+            let (first, last) = (ceiling(low), high as usize);
+            if first <= last {
+                bits.cover(row, first, last);
+            }
         }
     }
+}
+
+/// The least whole number that is not below x ≥ 0. (`f64::ceil` is a call where the processor's newer instructions are
+/// not asked for; this ran once for each row of each face drawn.)
+fn ceiling(x: f64) -> usize {
+    let whole = x as usize;
+    whole + usize::from((whole as f64) < x)
 }
 
 /// What an edge leaves of a row: the columns from, or up to, start + rise · height; or all or none.
@@ -213,31 +223,49 @@ fn reach(face: &Face, bounds: &Bounds, around: &[DVec3]) -> Option<Rectangle> {
         return None;
     }
     let axes = face.axes();
-    let depth = |point: &DVec3| point[face.axis] * face.sign;
-    let side = |k: usize| {
-        if !around.is_empty() && around.iter().all(|point| depth(point) > 0.0) {
-            let slopes = around.iter().map(|point| point[axes[k]] / depth(point));
-            let [low, high] =
-                slopes.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-            return columns(face, k, low, high);
+    let [x, y] = slopes(face, around).unwrap_or_else(|| {
+        [0, 1].map(|k| {
+            let (low, high) = (bounds.low[axes[k]], bounds.high[axes[k]]);
+            let most = |x: f64| match x {
+                x if x <= 0.0 => x / far,
+                x if near > 0.0 => x / near,
+                _ => f64::INFINITY,
+            };
+            [-most(-low), most(high)]
+        })
+    });
+    Some([columns(face, 0, x)?, columns(face, 1, y)?])
+}
+
+/// Least and greatest tangents, along both sides of a face, of the angles between its axis and `points`; none without
+/// points or with one that is not in front of the centre.
+fn slopes(face: &Face, points: &[DVec3]) -> Option<[[f64; 2]; 2]> {
+    let [i, j] = face.axes();
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+    let (mut x, mut y) = (nothing, nothing);
+    for point in points {
+        let depth = point[face.axis] * face.sign;
+        if depth.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+            return None;
         }
-        let (low, high) = (bounds.low[axes[k]], bounds.high[axes[k]]);
-        let most = |x: f64| match x {
-            x if x <= 0.0 => x / far,
-            x if near > 0.0 => x / near,
-            _ => f64::INFINITY,
-        };
-        columns(face, k, -most(-low), most(high))
-    };
-    Some([side(0)?, side(1)?])
+        let inverse = 1.0 / depth;
+        let (u, v) = (point[i] * inverse, point[j] * inverse);
+        x = [x[0].min(u), x[1].max(u)];
+        y = [y[0].min(v), y[1].max(v)];
+    }
+    (!points.is_empty()).then_some([x, y])
 }
 
 /// Columns (or rows) of a face with their middles between two slopes, tangents of the angle from its axis.
-fn columns(face: &Face, side: usize, low: f64, high: f64) -> Option<[usize; 2]> {
+fn columns(face: &Face, side: usize, [low, high]: [f64; 2]) -> Option<[usize; 2]> {
     let count = face.count[side] as f64;
     let scale = 0.5 * count / face.half[side];
     let at = |slope: f64| (slope * face.distance + face.half[side]) * scale - 0.5;
-    let first = (at(low) - SLACK).ceil().max(0.0);
-    let last = (at(high) + SLACK).floor().min(count - 1.0);
-    (first <= last).then_some([first as usize, last as usize])
+    let first = (at(low) - SLACK).max(0.0);
+    let last = (at(high) + SLACK).min(count - 1.0);
+    if !(first <= last) {
+        return None;
+    }
+    let [first, last] = [ceiling(first), last as usize];
+    (first <= last).then_some([first, last])
 }
