@@ -1,7 +1,7 @@
 //! Sun and sky as light sources.
 //!
 //! **Answers.** How bright is the sky, and of what colour, in a direction ([`Sky`])? What arrives from the sun's disc
-//! ([`Sun`]) and from the sky all around, as [`light::Illuminate`]: by rays ([`Dome`]), by the thesis' receiving cuboid ([`CuboidSky`]) or by the band sources
+//! ([`Sun`]) and from the sky all around, as [`light::Illuminate`]: by rays ([`Dome`]), by patches that stand still while the sun moves ([`PatchSky`]), by the thesis' receiving cuboid ([`CuboidSky`]) or by the band sources
 //! that this replaces ([`BandSky`]); what a clear atmosphere leaves of the
 //! direct beam ([`atmosphere`]); how bright the sky is by the sun's altitude ([`diffuse_illuminance`]). Skies are
 //! chosen by name ([`Model`]): light scattered by a round atmosphere of molecules, aerosol and ozone ([`AirSky`]; the thesis'
@@ -60,6 +60,7 @@ mod model;
 mod obstacles;
 mod open_sky;
 mod orders;
+mod patches;
 mod path;
 mod perez;
 mod phase;
@@ -85,6 +86,7 @@ pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};
 pub use luminous::{Luminous, OVERCAST_TEMPERATURE};
 pub use measured::{LuminanceTable, TableError};
 pub use model::{Conditions, Model};
+pub use patches::{PATCH_ROWS, PatchSky, Sight};
 pub use perez::{Perez, SOLAR_CONSTANT};
 pub use phase::Lobes;
 pub use scale::{Scale, Scaled, horizontal_illuminance};

@@ -7,13 +7,14 @@ mod point;
 mod refine;
 mod seams;
 mod settings;
-mod shared;
+mod shelves;
+mod sights;
 mod tree;
 
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use light::bands::BANDS;
 use light::{Arrival, Geometry, Illuminate, Occlude, Place, Ray, Spectrum};
 use rayon::prelude::*;
@@ -24,7 +25,8 @@ pub use key::{Described, Key};
 use point::Point;
 use seams::Seams;
 pub use settings::Settings;
-use shared::Shared;
+use shelves::{PointKey, Shelves};
+pub use sights::Sights;
 use tree::{FaceMap, Node};
 
 /// One of the two sides of a face.
@@ -94,7 +96,8 @@ pub struct Mapped {
     faces: Vec<[OnceLock<Box<FaceMap>>; 2]>,
     /// Cells known from before and how many points they have, by slot.
     plans: HashMap<usize, (Box<[Node]>, usize)>,
-    shared: Shared,
+    shared: Shelves<Spectrum>,
+    sights: Option<Arc<Sights>>,
 }
 
 /// A side of a face.
@@ -131,8 +134,16 @@ impl Mapped {
             before,
             faces,
             plans: HashMap::new(),
-            shared: Shared::default(),
+            shared: Shelves::default(),
+            sights: None,
         }
+    }
+
+    /// The same, with what its points see kept in `sights`, if these belong to it and the inner stage parts that from how bright
+    /// the sky is ([`WholeSky::patches`]).
+    pub fn with_sights(mut self, sights: Arc<Sights>) -> Self {
+        self.sights = sights.belong_to(self.key).then_some(sights);
+        self
     }
 
     /// What its values belong to.
@@ -160,7 +171,11 @@ impl Mapped {
         let made = self.made();
         let points = made.iter().map(|(_, face)| face.values.len()).sum();
         let bytes = made.iter().map(|(_, face)| face.bytes()).sum::<usize>();
-        [made.len(), points, bytes + size_of_val(&*self.faces) + self.shared.bytes()]
+        [
+            made.len(),
+            points,
+            bytes + size_of_val(&*self.faces) + self.shared.size()[1] * size_of::<(PointKey, Spectrum)>(),
+        ]
     }
 
     /// All that is made so far, for [`Self::recall`] in another run.
@@ -224,19 +239,32 @@ impl Mapped {
     /// V at a point, whoever's it is.
     fn value(&self, point: Point, on: FaceSide, occlude: &dyn Occlude) -> Spectrum {
         let face = [on.face[0], point.triangle];
+        let slot = self.slot(face, on.side);
         let find = || {
             // The owner's own normal, on the side that is asked for.
             let outward = self.outward(face);
             let facing = if on.side == 0 { outward } else { -outward };
             let place = point::place(&self.geometry, face, point.at, facing.as_vec3(), self.settings.inset);
-            self.share(&Place { seed: self.settings.seed, ..place }, occlude)
+            let place = Place { seed: self.settings.seed, ..place };
+            self.share(place.normal, self.arriving((slot, point.at), &place, occlude))
         };
-        if point.shared { self.shared.value(self.slot(face, on.side), point.at, find) } else { find() }
+        if point.shared { self.shared.of(slot, point.at, find) } else { find() }
     }
 
-    /// E/E_open at a place, within \[0, 1\]; 0 in bands that have no light.
-    fn share(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
-        let [there, open] = [self.inner.irradiance(place, occlude), self.inner.open_irradiance(place.normal)];
+    /// Irradiance at a point; by what is known of it already, where such is kept.
+    fn arriving(&self, (slot, at): (usize, DVec2), place: &Place, occlude: &dyn Occlude) -> Spectrum {
+        match (self.inner.patches(), &self.sights) {
+            (Some(patches), Some(sights)) => {
+                let sight = sights.of(slot, at, || patches.sight(place, occlude));
+                patches.through(place.normal, &sight)
+            }
+            _ => self.inner.irradiance(place, occlude),
+        }
+    }
+
+    /// E/E_open, within \[0, 1\]; 0 in bands that have no light.
+    fn share(&self, normal: Vec3, there: Spectrum) -> Spectrum {
+        let open = self.inner.open_irradiance(normal);
         let share =
             |band: usize| if open[band] > 0.0 { (there[band] / open[band]).clamp(0.0, 1.0) } else { 0.0 };
         let shares: [f32; BANDS] = std::array::from_fn(share);

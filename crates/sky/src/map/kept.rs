@@ -46,10 +46,38 @@ impl fmt::Display for KeptError {
 
 impl std::error::Error for KeptError {}
 
+/// The beginning of every file: what it is, of which version, for how many bands.
+pub(crate) fn begin(magic: &[u8; 8]) -> Vec<u8> {
+    let mut bytes = magic.to_vec();
+    bytes.extend([VERSION, BANDS as u32].map(u32::to_le_bytes).as_flattened());
+    bytes
+}
+
+/// Its end.
+pub(crate) fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let seal = Fnv::new().bytes(&bytes).number();
+    bytes.extend(seal.to_le_bytes());
+    bytes
+}
+
+/// What is between both, if both are right.
+pub(crate) fn content<'a>(bytes: &'a [u8], magic: &[u8; 8]) -> Result<Reader<'a>, KeptError> {
+    let rest = bytes.strip_prefix(magic).ok_or(KeptError::Foreign)?;
+    let version = Reader(rest).u32()?;
+    if version != VERSION {
+        return Err(KeptError::Version(version));
+    }
+    let (content, seal) = bytes.split_last_chunk().ok_or(KeptError::Damaged)?;
+    if Fnv::new().bytes(content).number() != u128::from_le_bytes(*seal) {
+        return Err(KeptError::Damaged);
+    }
+    let mut reader = Reader(&content[magic.len() + 4..]);
+    if reader.u32()? == BANDS as u32 { Ok(reader) } else { Err(KeptError::Damaged) }
+}
+
 /// Maps of some faces as bytes; slots ascend.
 pub(crate) fn write(key: &Key, faces: &[(usize, &FaceMap)]) -> Vec<u8> {
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend([VERSION, BANDS as u32].map(u32::to_le_bytes).as_flattened());
+    let mut bytes = begin(MAGIC);
     bytes.extend([key.places, key.sky].map(u128::to_le_bytes).as_flattened());
     bytes.extend((faces.len() as u64).to_le_bytes());
     for (slot, face) in faces {
@@ -59,29 +87,12 @@ pub(crate) fn write(key: &Key, faces: &[(usize, &FaceMap)]) -> Vec<u8> {
         face.nodes.iter().for_each(|node| bytes.extend(node.cut.to_le_bytes()));
         face.values.iter().flat_map(|value| value.0).for_each(|band| bytes.extend(band.to_le_bytes()));
     }
-    let seal = Fnv::new().bytes(&bytes).number();
-    bytes.extend(seal.to_le_bytes());
-    bytes
+    sealed(bytes)
 }
 
 /// The reverse: the key, and maps by slot, all slots below `slots`.
 pub(crate) fn read(bytes: &[u8], slots: usize) -> Result<(Key, Vec<(usize, FaceMap)>), KeptError> {
-    if !bytes.starts_with(MAGIC) {
-        return Err(KeptError::Foreign);
-    }
-    let mut reader = Reader(&bytes[MAGIC.len()..]);
-    let version = reader.u32()?;
-    if version != VERSION {
-        return Err(KeptError::Version(version));
-    }
-    let (content, seal) = bytes.split_last_chunk().ok_or(KeptError::Damaged)?;
-    if Fnv::new().bytes(content).number() != u128::from_le_bytes(*seal) {
-        return Err(KeptError::Damaged);
-    }
-    let mut reader = Reader(&content[MAGIC.len() + 4..]);
-    if reader.u32()? != BANDS as u32 {
-        return Err(KeptError::Damaged);
-    }
+    let mut reader = content(bytes, MAGIC)?;
     let key = Key { places: reader.u128()?, sky: reader.u128()? };
     let count = reader.u64()?;
     let mut faces: Vec<(usize, FaceMap)> = Vec::new();
@@ -90,28 +101,37 @@ pub(crate) fn read(bytes: &[u8], slots: usize) -> Result<(Key, Vec<(usize, FaceM
         let slot = slot.filter(|slot| faces.last().is_none_or(|last| last.0 < *slot));
         faces.push((slot.ok_or(KeptError::Damaged)?, reader.face()?));
     }
-    if reader.0.is_empty() { Ok((key, faces)) } else { Err(KeptError::Damaged) }
+    if reader.is_empty() { Ok((key, faces)) } else { Err(KeptError::Damaged) }
 }
 
 /// What is left to read.
-struct Reader<'a>(&'a [u8]);
+pub(crate) struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// \[bytes\]
+    pub(crate) fn left(&self) -> usize {
+        self.0.len()
+    }
+
     fn take<const N: usize>(&mut self) -> Result<[u8; N], KeptError> {
         let (first, rest) = self.0.split_first_chunk().ok_or(KeptError::Damaged)?;
         self.0 = rest;
         Ok(*first)
     }
 
-    fn u32(&mut self) -> Result<u32, KeptError> {
+    pub(crate) fn u32(&mut self) -> Result<u32, KeptError> {
         self.take().map(u32::from_le_bytes)
     }
 
-    fn u64(&mut self) -> Result<u64, KeptError> {
+    pub(crate) fn u64(&mut self) -> Result<u64, KeptError> {
         self.take().map(u64::from_le_bytes)
     }
 
-    fn u128(&mut self) -> Result<u128, KeptError> {
+    pub(crate) fn u128(&mut self) -> Result<u128, KeptError> {
         self.take().map(u128::from_le_bytes)
     }
 
@@ -127,7 +147,7 @@ impl Reader<'_> {
         Ok(FaceMap { values, nodes })
     }
 
-    fn value(&mut self) -> Result<Spectrum, KeptError> {
+    pub(crate) fn value(&mut self) -> Result<Spectrum, KeptError> {
         let mut value = Spectrum::ZERO;
         for band in &mut value.0 {
             *band = self.take().map(f32::from_le_bytes)?;

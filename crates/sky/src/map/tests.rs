@@ -9,6 +9,7 @@ use super::*;
 mod kept;
 mod laws;
 mod mesh;
+mod sights;
 mod values;
 
 /// What the open sky gives, different in every band and by tilt.
