@@ -9,14 +9,14 @@ use std::time::Instant;
 use scene::CameraPath;
 
 use crate::args::Animate;
-use crate::command::{load, pretty, say, warn};
+use crate::command::{load, pretty, say, studio, warn};
 use crate::frames::{Frames, numbered};
 use crate::output::{self, Target};
 use crate::pipeline::Monitor;
 use crate::publish::{self, Page};
 use crate::report::{self, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
-use crate::{Error, caption, progress};
+use crate::{Error, caption, map_file, progress};
 
 /// A frame to make, and where.
 struct Job {
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Animate, json: bool) -> Result<(), Error> {
     warn(&scene);
     let mut warnings: BTreeSet<String> =
         scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what)).collect();
-    let mut studio = Studio::new(scene, args.view.clone(), args.develop.layers);
+    let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
     let jobs = jobs(args, &studio)?;
     // What can be known to fail fails before the first frame.
     for file in jobs.iter().flat_map(|job| &job.files) {
@@ -93,6 +93,9 @@ pub(crate) fn run(args: &Animate, json: bool) -> Result<(), Error> {
         frames.push(frame);
     }
     let written = frames.iter().filter(|frame| frame.written).count();
+    if let Some(path) = args.maps.as_deref().filter(|_| written > 0) {
+        map_file::write(path, studio.maps())?;
+    }
     let summary = Summary {
         written,
         skipped: frames.len() - written,
@@ -203,6 +206,7 @@ impl Job {
         // From here on an interruption ends tidily.
         monitor.rendering.store(true, Ordering::Relaxed);
         let Shot { scene, plan, film } = studio.frame(&self.spec, monitor, &mut stages)?;
+        map_file::tell(studio.maps());
         let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
         for warning in of_scene.chain(plan.shadows.warning()) {
             if warnings.insert(warning.clone()) {

@@ -71,6 +71,10 @@ pub struct Render {
     /// Where to write; .exr and .png tell the format; may be repeated. Default: the scene's name with both.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// Keep what is known of the sky's light (sky.map=on) in this file from run to run: a further picture of the same
+    /// scene, also under another sun (sky.visibility=patches), need not find it again.
+    #[arg(long, value_name = "FILE")]
+    pub maps: Option<PathBuf>,
     /// How it becomes files.
     #[command(flatten)]
     pub develop: Develop,
@@ -103,6 +107,9 @@ pub struct Animate {
     /// Make frames again whose files exist; without it they are skipped, so that a run that ended early goes on.
     #[arg(long)]
     pub overwrite: bool,
+    /// Keep what is known of the sky's light (sky.map=on) in this file from run to run, as `keikan render` does.
+    #[arg(long, value_name = "FILE")]
+    pub maps: Option<PathBuf>,
     /// How they become files.
     #[command(flatten)]
     pub develop: Develop,

@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::publish::{self, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
-use crate::{Error, animate, assemble, caption, compare, lux, progress};
+use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress};
 
 /// The scene that is rendered when none is named.
 const PARK: &str = include_str!("../scenes/park.toml");
@@ -82,8 +82,9 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let targets: Vec<Target> = outputs.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let mut seconds = Timings::default();
     let scene = seconds.time("load", || load(args.view.scene.as_deref()))?;
-    let mut studio = Studio::new(scene, args.view.clone(), args.develop.layers);
+    let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
     let Shot { scene, plan, film } = studio.frame(&FrameSpec::default(), &monitor, &mut seconds)?;
+    map_file::tell(studio.maps());
     let pictures = seconds.time("develop", || output::develop(&film));
     drop(film);
     let site = caption::describe(&scene);
@@ -91,6 +92,9 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let page =
         Page { view: &args.view, develop: &args.develop, scene: &scene, plan: &plan, pictures: &pictures };
     let exposure = seconds.time("write", || page.write(files, &monitor))?;
+    if let Some(path) = &args.maps {
+        seconds.time("maps", || map_file::write(path, studio.maps()))?;
+    }
     let luminance = &pictures[0].luminance;
     let mean = luminance.iter().map(|&l| f64::from(l)).sum::<f64>() / luminance.len().max(1) as f64;
     let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
@@ -112,6 +116,19 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
         eprintln!("{summary}");
         Ok(())
     }
+}
+
+/// A studio for a scene, with the maps that `--maps` names.
+pub(crate) fn studio(
+    scene: Scene,
+    view: &args::View,
+    develop: &args::Develop,
+    maps: Option<&Path>,
+) -> Result<Studio, Error> {
+    let studio = Studio::new(scene, view.clone(), develop.layers);
+    let Some(path) = maps else { return Ok(studio) };
+    let (_, plan) = studio.set_up(&FrameSpec::default())?;
+    Ok(studio.with_maps(map_file::read(path, &plan)?))
 }
 
 /// Where to write: as asked, or the scene's own name as .png and .exr in the current folder.

@@ -138,9 +138,15 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "sky.visibility",
-        domain: Domain::Choice(&["rays", "cuboid", "bands"]),
+        domain: Domain::Choice(&["rays", "patches", "cuboid", "bands"]),
         presets: ["rays"; 3],
-        doc: "who finds how much of the sky a place sees: rays (noisy, any obstacle), the receiving cuboid (thesis 4.3; no noise), or band sources, which it replaced",
+        doc: "who finds how much of the sky a place sees: rays where the sky is bright (noisy, any obstacle), rays to patches that stand still while the sun moves (no noise, any obstacle), the receiving cuboid (thesis 4.3; no noise), or band sources, which it replaced",
+    },
+    Knob {
+        name: "sky.patches",
+        domain: Domain::Integer(1, 200),
+        presets: ["8", "14", "28"],
+        doc: "rows of patches from horizon to zenith; 14 are 500 patches and as many rays; time grows with the square",
     },
     Knob {
         name: "sky.elements",
@@ -259,6 +265,12 @@ impl Settings {
         }
         self.0.insert(knob.name, value.to_owned());
         Ok(())
+    }
+
+    /// All knobs whose names begin so, with their values.
+    pub fn of(&self, prefix: &str) -> impl Iterator<Item = (&'static str, &str)> {
+        let all = self.0.iter().map(|(name, value)| (*name, value.as_str()));
+        all.filter(move |(name, _)| name.starts_with(prefix))
     }
 
     /// The value of a knob, as text.

@@ -17,6 +17,7 @@ pub mod frames;
 pub mod knobs;
 mod looks;
 pub mod lux;
+mod map_file;
 pub mod output;
 pub mod pipeline;
 pub mod plan;

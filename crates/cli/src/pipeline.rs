@@ -53,11 +53,11 @@ pub struct Pipeline {
     /// What a further ray meets.
     pub nearest: Arc<dyn Nearest>,
     /// By material index.
-    pub shade: Vec<Box<dyn Shade>>,
+    pub shade: Arc<[Box<dyn Shade>]>,
     /// Every light.
-    pub sources: Vec<Source>,
+    pub sources: Arc<[Source]>,
     /// What stands in light's way.
-    pub occlude: Box<dyn Occlude>,
+    pub occlude: Arc<dyn Occlude>,
     /// When to stop.
     pub limits: Limits,
 }

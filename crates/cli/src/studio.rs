@@ -1,20 +1,32 @@
 //! From a loaded scene to the film of one frame: the one place where a pipeline is assembled for a picture.
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use light::Film;
 use scene::Scene;
 
-use crate::pipeline::Monitor;
+use crate::assemble::{Maps, Standing};
+use crate::pipeline::{Monitor, Pipeline, Source};
 use crate::plan::{MOST_PIXELS, Plan};
 use crate::report::Timings;
-use crate::{Error, args, assemble, progress};
+use crate::{Error, args, progress};
 
-/// A scene, and how it is looked at. Whatever may be kept from one frame to the next belongs here.
+/// A scene, how it is looked at, and all that is kept from one frame to the next: what stands there; its lights,
+/// while the sun stands still; and what is known of the sky's light.
 pub struct Studio {
     scene: Scene,
     view: args::View,
     layers: bool,
+    standing: Option<Standing>,
+    lit: Option<Lit>,
+    maps: Maps,
+}
+
+/// The sources of the frames of one time.
+struct Lit {
+    clock: Option<f64>,
+    sources: Arc<[Source]>,
 }
 
 /// What of a scene differs from frame to frame.
@@ -39,7 +51,17 @@ pub struct Shot {
 impl Studio {
     /// With `layers`, films have a further layer for every light.
     pub fn new(scene: Scene, view: args::View, layers: bool) -> Self {
-        Self { scene, view, layers }
+        Self { scene, view, layers, standing: None, lit: None, maps: Maps::default() }
+    }
+
+    /// With what another run has kept of the sky's light.
+    pub fn with_maps(self, maps: Maps) -> Self {
+        Self { maps, ..self }
+    }
+
+    /// What is known of the sky's light by now.
+    pub fn maps(&mut self) -> &mut Maps {
+        &mut self.maps
     }
 
     /// The scene as it was loaded.
@@ -79,7 +101,7 @@ impl Studio {
     ) -> Result<Shot, Error> {
         let (scene, plan) = self.set_up(spec)?;
         fits(&plan, &scene, self.layers)?;
-        let pipeline = seconds.time("assemble", || assemble::assemble(&plan, &scene))?;
+        let pipeline = seconds.time("assemble", || self.pipeline(spec, &plan, &scene))?;
         monitor.rendering.store(true, Ordering::Relaxed);
         monitor.rows.store(0, Ordering::Relaxed);
         let film = seconds.time("render", || {
@@ -88,6 +110,21 @@ impl Studio {
             })
         })?;
         Ok(Shot { scene, plan, film })
+    }
+
+    /// The stages of a frame: new ones only as far as it differs from the last.
+    fn pipeline(&mut self, spec: &FrameSpec, plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
+        let standing = match self.standing.take() {
+            Some(standing) => standing,
+            None => Standing::new(plan, scene)?,
+        };
+        let standing = self.standing.insert(standing);
+        let lit = match self.lit.take() {
+            Some(lit) if lit.clock == spec.clock => lit,
+            _ => Lit { clock: spec.clock, sources: standing.light(plan, scene, &mut self.maps) },
+        };
+        let sources = Arc::clone(&self.lit.insert(lit).sources);
+        standing.pipeline(plan, scene, sources)
     }
 }
 

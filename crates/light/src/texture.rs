@@ -87,6 +87,11 @@ impl Texture {
         (Vec3::new(r, g, b) / a, a)
     }
 
+    /// Alpha of each texel as a share of 65535, row by row.
+    pub fn alphas(&self) -> impl Iterator<Item = u16> {
+        self.levels[0].texels.iter().map(|texel| texel[3])
+    }
+
     /// Alpha alone.
     pub fn alpha(&self, uv: Vec2, width: f32) -> f32 {
         self.filtered(uv, width)[3]

@@ -11,7 +11,6 @@ mod shelves;
 mod sights;
 mod tree;
 
-use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3, Vec3};
@@ -27,7 +26,7 @@ use seams::Seams;
 pub use settings::Settings;
 use shelves::{PointKey, Shelves};
 pub use sights::Sights;
-use tree::{FaceMap, Node};
+use tree::FaceMap;
 
 /// One of the two sides of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,15 +35,6 @@ pub enum Side {
     Front,
     /// The other.
     Back,
-}
-
-/// What was taken over from kept maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Recalled {
-    /// This many sides of faces, with all their values.
-    Values(usize),
-    /// The sky is another: only where the cells of this many sides of faces are. Their values are found anew.
-    Meshes(usize),
 }
 
 /// A sky whose light is kept at points of every face and interpolated between them.
@@ -94,8 +84,6 @@ pub struct Mapped {
     before: Vec<usize>,
     /// By triangle of all placements: front, back.
     faces: Vec<[OnceLock<Box<FaceMap>>; 2]>,
-    /// Cells known from before and how many points they have, by slot.
-    plans: HashMap<usize, (Box<[Node]>, usize)>,
     shared: Shelves<Spectrum>,
     sights: Option<Arc<Sights>>,
 }
@@ -133,7 +121,6 @@ impl Mapped {
             seams,
             before,
             faces,
-            plans: HashMap::new(),
             shared: Shelves::default(),
             sights: None,
         }
@@ -183,26 +170,24 @@ impl Mapped {
         kept::write(&self.key, &self.made())
     }
 
-    /// Takes over what [`Self::to_bytes`] of a map with the same geometry and settings has made: all of it under the
-    /// same sky, else its cells alone. A face that is made already stays.
+    /// Takes over what [`Self::to_bytes`] of a map of the same key has made, so many sides of faces; one that is made already stays.
     ///
-    /// Known cells keep the mesh still while the sun moves, but spare nothing: all that was asked to find them is
-    /// among their points.
-    pub fn recall(&mut self, bytes: &[u8]) -> Result<Recalled, KeptError> {
+    /// # Errors
+    /// What is damaged, or belongs to other places, or to another sky: under another sun other cells may be needed, and
+    /// [`Sights`] spare what is dear.
+    pub fn recall(&mut self, bytes: &[u8]) -> Result<usize, KeptError> {
         let (key, faces) = kept::read(bytes, 2 * self.faces.len())?;
         if key.places != self.key.places {
             return Err(KeptError::OtherPlaces);
         }
-        let count = faces.len();
         if key.sky != self.key.sky {
-            let plan = |(slot, face): (usize, FaceMap)| (slot, (face.nodes, face.values.len()));
-            self.plans = faces.into_iter().map(plan).collect();
-            return Ok(Recalled::Meshes(count));
+            return Err(KeptError::OtherSky);
         }
+        let count = faces.len();
         for (slot, face) in faces {
             self.faces[slot / 2][slot % 2].get_or_init(|| Box::new(face));
         }
-        Ok(Recalled::Values(count))
+        Ok(count)
     }
 
     /// All that is made, by slot.
@@ -221,16 +206,13 @@ impl Mapped {
     }
 
     fn face_map(&self, on: FaceSide, occlude: &dyn Occlude) -> &FaceMap {
+        let [instance, triangle] = on.face;
         let slot = self.slot(on.face, on.side);
         self.faces[slot / 2][slot % 2].get_or_init(|| {
-            let [instance, triangle] = on.face;
             let seams = &self.seams[self.geometry.instances[instance as usize].mesh as usize];
             let world = self.geometry.triangle(instance, triangle);
             let mut value = |at| self.value(Point::of(seams, triangle, at), on, occlude);
-            let mut map = match self.plans.get(&slot) {
-                Some((nodes, points)) => refine::revalue(nodes, *points, &mut value),
-                None => refine::refine(&world, &self.settings, &mut value),
-            };
+            let mut map = refine::refine(&world, &self.settings, &mut value);
             buried::fill(&mut map, &world, self.settings.least, seams.shared(triangle));
             Box::new(map)
         })

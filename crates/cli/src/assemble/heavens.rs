@@ -6,9 +6,12 @@ use glam::Vec3;
 use light::{Bodies, Geometry, Illuminate, Spectrum};
 use scene::Scene;
 use sky::map::{Described, Mapped};
-use sky::{BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, Perez, Scale, WholeSky};
+use sky::{
+    BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, PatchSky, Perez, Scale, WholeSky,
+};
 
 use super::lights::{beam, risen};
+use super::maps::Maps;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
 use crate::plan;
@@ -25,11 +28,16 @@ pub(super) fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
     Model::named(plan::sky_model(scene, settings))
 }
 
-pub(super) fn sky(scene: &Scene, settings: &Settings, bodies: Option<&dyn Bodies>) -> Option<Source> {
+pub(super) fn sky(
+    scene: &Scene,
+    settings: &Settings,
+    bodies: Option<&dyn Bodies>,
+    maps: &mut Maps,
+) -> Option<Source> {
     let description = describe(scene, settings, model(scene, settings)?);
     let seen = seen(scene, settings, &description, bodies);
     let light: Box<dyn Illuminate> = match settings.choice("sky.map") {
-        "on" => Box::new(mapped(scene, settings, seen)),
+        "on" => Box::new(mapped(scene, settings, seen, maps)),
         _ => Box::new(seen),
     };
     Some(Source { name: SKY.to_owned(), light, beam: false, point: None })
@@ -96,19 +104,35 @@ fn seen(
             let bands = settings.integer("sky.bands");
             Arc::new(BandSky::new(description, &scene.geometry, bodies, bands))
         }
+        "patches" => Arc::new(PatchSky::new(description, settings.integer("sky.patches"))),
         _ => Arc::new(Dome::new(description)),
     }
 }
 
 /// Kept at points of every face.
-fn mapped(scene: &Scene, settings: &Settings, seen: Arc<dyn WholeSky>) -> Mapped {
+fn mapped(scene: &Scene, settings: &Settings, seen: Arc<dyn WholeSky>, maps: &mut Maps) -> Arc<Mapped> {
     let fineness = sky::map::Settings {
         coarse: settings.number("sky.map.coarse") as f32,
         least: settings.number("sky.map.least") as f32,
         tolerance: settings.number("sky.map.tolerance") as f32,
         ..sky::map::Settings::default()
     };
-    Mapped::new(seen, Arc::clone(&scene.geometry), fineness, &Described::default())
+    let [hiding, sky] = [hiding(scene, settings), light_of_the_sky(scene, settings)];
+    let described = Described { hiding: hiding.as_bytes(), sky: sky.as_bytes() };
+    maps.map(seen, &scene.geometry, fineness, &described)
+}
+
+/// What hides the sky besides the geometry, and how it is looked at, in words that differ where these do.
+fn hiding(scene: &Scene, settings: &Settings) -> String {
+    let media: Vec<_> = scene.materials.iter().map(scene::Material::medium).collect();
+    let stages = ["shadows", "sky.patches", "sky.ground"].map(|name| settings.choice(name));
+    format!("{:?}{:?}{:?}{stages:?}", scene.solids, media, scene.geometry.bounds())
+}
+
+/// The sky's light, likewise. More may be in it than matters: then something is found anew in vain.
+fn light_of_the_sky(scene: &Scene, settings: &Settings) -> String {
+    let knobs: Vec<_> = settings.of("sky.").collect();
+    format!("{:?}{:?}{:?}{:?}{knobs:?}", scene.sky, scene.sun, scene.site, env!("CARGO_PKG_VERSION"))
 }
 
 /// Height of the scene's own ground \[m\]: below a tenth of the area of its level faces there is no ground

@@ -5,15 +5,21 @@ use scene::{LightSpectrum, Scene};
 use sky::{Sun, atmosphere};
 
 use super::heavens::{self, SKY};
+use super::maps::Maps;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
 
 /// Sun, sky, luminaires and luminous areas, in this order; what the scene lacks is left out. `bodies` hide the sky, as
-/// meshes do.
-pub(super) fn sources(scene: &Scene, settings: &Settings, bodies: Option<&dyn Bodies>) -> Vec<Source> {
+/// meshes do; `maps` have what is known of its light.
+pub(super) fn sources(
+    scene: &Scene,
+    settings: &Settings,
+    bodies: Option<&dyn Bodies>,
+    maps: &mut Maps,
+) -> Vec<Source> {
     let mut sources = Vec::new();
     sources.extend(sun(scene, settings));
-    sources.extend(heavens::sky(scene, settings, bodies));
+    sources.extend(heavens::sky(scene, settings, bodies, maps));
     sources.extend(scene.lights.iter().map(|light| Source {
         name: light.name.clone(),
         light: Box::new(Luminaire {
@@ -132,7 +138,7 @@ mod tests {
         ] {
             let scene = scene::parse(&format!("{sky}{lamps}"), Path::new(""), Path::new("a.toml")).unwrap();
             let settings = Settings::preset(preset);
-            let built: Vec<_> = sources(&scene, &settings, None)
+            let built: Vec<_> = sources(&scene, &settings, None, &mut Maps::default())
                 .into_iter()
                 .map(|source| (source.name, source.point.is_some()))
                 .collect();

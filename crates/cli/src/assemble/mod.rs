@@ -2,6 +2,7 @@
 
 mod heavens;
 mod lights;
+mod maps;
 mod materials;
 mod solids;
 
@@ -20,6 +21,7 @@ use crate::shadows::NUMBERED;
 
 pub(crate) use heavens::skies;
 pub(crate) use lights::outline;
+pub use maps::Maps;
 pub(crate) use materials::mirrors;
 
 /// Builds the stages that `plan` names for `scene`.
@@ -27,34 +29,63 @@ pub(crate) use materials::mirrors;
 /// # Errors
 /// What only building can find: a solid that cannot be.
 pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
-    let settings = &plan.settings;
-    let view = view(plan, scene)?;
-    let (solids, mut more) =
-        solids::bodies(scene)?.map_or((None, Vec::new()), |dressed| (Some(dressed.solids), dressed.shaders));
-    let traced = Traced::of(scene, plan, solids);
-    let bodies = traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
-    let sources = lights::sources(scene, settings, bodies);
-    let occlude = Arc::new(Product(match settings.choice("shadows") {
-        "off" => Vec::new(),
-        _ => traced.occlude(),
-    }));
-    let (see, needed_rays) = see(plan, scene, view, &traced, (&sources, &occlude));
-    let mut shade: Vec<Box<dyn Shade>> = scene.materials.iter().map(materials::shade).collect();
-    shade.append(&mut more);
-    Ok(Pipeline {
-        view,
-        see,
-        needed_rays,
-        nearest: traced.nearest(),
-        shade,
-        sources,
-        occlude: Box::new(occlude),
-        limits: Limits {
-            depth: settings.integer("ray-depth") as u8,
-            share: settings.number("ray-share") as f32,
-            alike: settings.number("body.tolerance") as f32,
-        },
-    })
+    let standing = Standing::new(plan, scene)?;
+    let sources = standing.light(plan, scene, &mut Maps::default());
+    standing.pipeline(plan, scene, sources)
+}
+
+/// What neither a camera nor a sun that moves changes: who answers rays, and who shades.
+pub struct Standing {
+    traced: Traced,
+    occlude: Arc<Product>,
+    shade: Arc<[Box<dyn Shade>]>,
+}
+
+impl Standing {
+    /// Of this scene, as long as neither its things nor the plan's settings change.
+    ///
+    /// # Errors
+    /// A solid that cannot be.
+    pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
+        let (solids, more) = solids::bodies(scene)?
+            .map_or((None, Vec::new()), |dressed| (Some(dressed.solids), dressed.shaders));
+        let traced = Traced::of(scene, plan, solids);
+        let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
+            "off" => Vec::new(),
+            _ => traced.occlude(),
+        }));
+        let shade = scene.materials.iter().map(materials::shade).chain(more).collect();
+        Ok(Self { traced, occlude, shade })
+    }
+
+    /// The scene's sources; `maps` have what is known of the sky's light, and keep what becomes known.
+    pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Arc<[Source]> {
+        let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
+        lights::sources(scene, &plan.settings, bodies, maps).into()
+    }
+
+    /// All stages of one picture.
+    ///
+    /// # Errors
+    /// A camera that the scene does not have.
+    pub fn pipeline(&self, plan: &Plan, scene: &Scene, sources: Arc<[Source]>) -> Result<Pipeline, Error> {
+        let (settings, view) = (&plan.settings, view(plan, scene)?);
+        let (see, needed_rays) = see(plan, scene, view, &self.traced, (&sources, &self.occlude));
+        Ok(Pipeline {
+            view,
+            see,
+            needed_rays,
+            nearest: self.traced.nearest(),
+            shade: Arc::clone(&self.shade),
+            sources,
+            occlude: Arc::clone(&self.occlude) as Arc<dyn Occlude>,
+            limits: Limits {
+                depth: settings.integer("ray-depth") as u8,
+                share: settings.number("ray-share") as f32,
+                alike: settings.number("body.tolerance") as f32,
+            },
+        })
+    }
 }
 
 /// Who finds what the eye sees, and how many pixels have needed a ray for it.

@@ -31,6 +31,8 @@ pub enum KeptError {
     Damaged,
     /// Of another geometry, or made with other settings.
     OtherPlaces,
+    /// Of another sky: model, sun, ground.
+    OtherSky,
 }
 
 impl fmt::Display for KeptError {
@@ -40,6 +42,7 @@ impl fmt::Display for KeptError {
             Self::Version(found) => write!(f, "an illuminance map of version {found}; this is {VERSION}"),
             Self::Damaged => f.write_str("the illuminance map is damaged"),
             Self::OtherPlaces => f.write_str("the illuminance map is of another scene or other settings"),
+            Self::OtherSky => f.write_str("the illuminance map is of another sky"),
         }
     }
 }

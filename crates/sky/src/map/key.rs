@@ -89,6 +89,9 @@ fn mesh_number(mesh: &Mesh) -> u128 {
         fnv.vectors([[opacity.factor, opacity.cutoff.unwrap_or(-1.0)]].into_iter());
         let [width, height] = opacity.texture.as_ref().map_or([0; 2], |texture| texture.size());
         fnv.bytes(&width.to_le_bytes()).bytes(&height.to_le_bytes());
+        for alpha in opacity.texture.iter().flat_map(|texture| texture.alphas()) {
+            fnv.bytes(&alpha.to_le_bytes());
+        }
     }
     if let Some(medium) = &mesh.medium {
         fnv.vectors([[medium.index, medium.transmission, f32::from(medium.thin)]].into_iter());

@@ -6,7 +6,7 @@ use glam::DVec2;
 use light::{Spectrum, Triangle};
 
 use super::Settings;
-use super::tree::{FaceMap, LEAF, MOST_POINTS, Node, cut, layout, parts};
+use super::tree::{FaceMap, LEAF, MOST_POINTS, Node, cut, parts};
 
 /// Halvings of an edge for its length alone: 64 pieces.
 const BASE_HALVINGS: u8 = 6;
@@ -59,12 +59,6 @@ pub(crate) fn refine(
     }
     refine.cell([0, 1, 2]);
     FaceMap { values: refine.values.into(), nodes: refine.nodes.into() }
-}
-
-/// The mesh with the cells of `nodes`, whose `count` points get new values.
-pub(crate) fn revalue(nodes: &[Node], count: usize, value: &mut dyn FnMut(DVec2) -> Spectrum) -> FaceMap {
-    let (points, _) = layout(nodes, count);
-    FaceMap { values: points.into_iter().map(value).collect(), nodes: nodes.into() }
 }
 
 struct Refine<'a> {

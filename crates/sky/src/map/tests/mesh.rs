@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use light::Triangle;
 
-use super::super::refine::{refine, revalue};
+use super::super::refine::refine;
 use super::super::tree::{LEAF, parts, uncut};
 use super::*;
 
@@ -86,14 +86,6 @@ proptest! {
         let difference = one.value([1.0 - t, t, 0.0]) - other.value([0.0, t, 1.0 - t]);
         // Two products and a sum of numbers below 1, in another order.
         prop_assert!(difference.map(f32::abs).max() <= 2.0 * f32::EPSILON);
-    }
-
-    #[test]
-    fn known_cells_with_new_values_are_what_they_were(
-        corners in [corner(), corner(), corner()], shape in [-1.0..1.0, -1.0..1.0, -0.5..0.5f64],
-    ) {
-        let map = refine(&triangle(corners), &EXACT, &mut |at| field(at, shape));
-        prop_assert_eq!(&revalue(&map.nodes, map.values.len(), &mut |at| field(at, shape)), &map);
     }
 }
 
