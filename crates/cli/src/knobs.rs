@@ -138,9 +138,9 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "sky.visibility",
-        domain: Domain::Choice(&["rays", "patches", "cuboid", "bands"]),
-        presets: ["rays"; 3],
-        doc: "who finds how much of the sky a place sees: rays where the sky is bright (noisy, any obstacle), rays to patches that stand still while the sun moves (no noise, any obstacle), the receiving cuboid (thesis 4.3; no noise), or band sources, which it replaced",
+        domain: Domain::Choice(&["auto", "rays", "patches", "cuboid", "bands"]),
+        presets: ["auto"; 3],
+        doc: "who finds how much of the sky a place sees; auto = patches for maps, else rays: rays where the sky is bright (noisy, any obstacle), rays to patches that stand still while the sun moves (no noise, any obstacle), the receiving cuboid (thesis 4.3; no noise), or band sources, which it replaced",
     },
     Knob {
         name: "sky.patches",
@@ -265,6 +265,15 @@ impl Settings {
         }
         self.0.insert(knob.name, value.to_owned());
         Ok(())
+    }
+
+    /// `sky.visibility`, decided: a map looks at few places, which no noise of rays should mark, and outlives its sun.
+    pub fn sky_visibility(&self) -> &str {
+        match (self.choice("sky.visibility"), self.choice("sky.map")) {
+            ("auto", "on") => "patches",
+            ("auto", _) => "rays",
+            (chosen, _) => chosen,
+        }
     }
 
     /// All knobs whose names begin so, with their values.

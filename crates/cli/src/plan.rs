@@ -198,11 +198,12 @@ pub(crate) fn sky_model<'a>(scene: &'a Scene, settings: &'a Settings) -> &'a str
 
 /// How much of the sky places see is found how.
 fn sky_seen(settings: &Settings) -> String {
-    let by = match settings.choice("sky.visibility") {
+    let by = match settings.sky_visibility() {
         "cuboid" => {
             format!("a receiving cuboid of {} elements across its top", settings.choice("sky.elements"))
         }
         "bands" => format!("{} band sources", settings.choice("sky.bands")),
+        "patches" => format!("{} rows of patches", settings.choice("sky.patches")),
         _ => format!("{} rays a place", settings.choice("sky.rays")),
     };
     match settings.choice("sky.map") {

@@ -96,6 +96,54 @@ fn a_day_moves_the_sun() {
     }
 }
 
+/// The pictures of one morning, by frame.
+fn morning(folder: &Path, more: &str) -> (Output, Vec<Vec<u8>>) {
+    let line = format!("walk.toml -o m#.exr --time 08:00..10:00/1h --overwrite --set sky.map=on {more}");
+    let done = keikan(folder, &line);
+    let frames = (1..=3).map(|i| fs::read(folder.join(format!("m{i}.exr"))).unwrap_or_default()).collect();
+    (done, frames)
+}
+
+#[test]
+fn maps_change_no_picture_and_serve_the_next_run() {
+    let folder = folder("maps");
+    fs::write(folder.join("walk.toml"), WALK).unwrap();
+    let (_, without) = morning(&folder, "");
+    let (first, with) = morning(&folder, "--maps sky.maps");
+    assert_eq!(first.status.code(), Some(0), "{}", said(&first));
+    assert!(with == without && !with[0].is_empty() && !said(&first).contains("--maps"));
+    let kept = fs::read(folder.join("sky.maps")).unwrap();
+    let (second, again) = morning(&folder, "--maps sky.maps");
+    assert!(again == without, "{}", said(&second));
+    // The file has the map of ten o'clock, and what all points see of the sky.
+    assert!(said(&second).contains("of another sky; what") && said(&second).contains("is taken over"));
+    assert!(fs::read(folder.join("sky.maps")).unwrap() == kept);
+    let (last, _) = morning(&folder, "--maps sky.maps --frames 3");
+    assert!(said(&last).contains("sides of faces taken over"), "{}", said(&last));
+    // Another scene.
+    fs::write(folder.join("walk.toml"), WALK.replace("[2, 2, 2]", "[2, 3, 2]")).unwrap();
+    let (other, _) = morning(&folder, "--maps sky.maps");
+    assert_eq!(other.status.code(), Some(0));
+    assert!(said(&other).contains("made anew: the illuminance map is of another scene"), "{}", said(&other));
+}
+
+#[test]
+fn a_file_that_is_no_map_stays_as_it_is() {
+    let folder = folder("no-maps");
+    fs::write(folder.join("walk.toml"), WALK).unwrap();
+    for content in [&b"my diary"[..], b"keikanMS\xff\0\0\0\0\0\0\0short", b""] {
+        fs::write(folder.join("sky.maps"), content).unwrap();
+        let (done, _) = morning(&folder, "--maps sky.maps");
+        assert_eq!(done.status.code(), Some(2), "{}", said(&done));
+        assert!(said(&done).contains("--maps sky.maps"), "{}", said(&done));
+        assert_eq!(fs::read(folder.join("sky.maps")).unwrap(), content);
+    }
+    let done =
+        keikan(&folder, "walk.toml -o m#.exr --time 08:00..09:00/1h --maps new.maps --set sky.map=off");
+    assert_eq!(done.status.code(), Some(2));
+    assert!(said(&done).contains("sky.map is off") && !folder.join("new.maps").exists());
+}
+
 #[test]
 fn usage_errors_are_2_and_say_what_is_possible() {
     let folder = folder("usage");

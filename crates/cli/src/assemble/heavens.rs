@@ -94,7 +94,7 @@ fn seen(
     description: &Description,
     bodies: Option<&dyn Bodies>,
 ) -> Arc<dyn WholeSky> {
-    match settings.choice("sky.visibility") {
+    match settings.sky_visibility() {
         "cuboid" => {
             let division =
                 Division { elements: settings.integer("sky.elements"), parts: settings.integer("sky.parts") };
