@@ -6,8 +6,10 @@
 
 use std::path::Path;
 
-use keikan::pipeline::{Monitor, Pipeline, Region};
+use keikan::pipeline::Pipeline;
 use keikan_tests::{build, luminances};
+
+use crate::clock;
 
 const SIZE: (u32, u32) = (512, 384);
 
@@ -46,27 +48,12 @@ fn scene(lights: usize) -> scene::Scene {
     scene::load(&root.join(format!("fig-2-8d-{lights}.toml"))).expect("the thesis' scene")
 }
 
-/// A picture, and the processor seconds it took: the least of `runs`. On a busy machine these say more than a clock.
+/// A picture, and the processor seconds it took: the least of `runs`.
 fn shot(pipeline: &Pipeline, runs: usize) -> (Vec<f32>, f64) {
-    let whole = Region { columns: 0..SIZE.0, rows: 0..SIZE.1 };
-    let once = || {
-        let start = processor_seconds();
-        let film = pipeline.render(&whole, false, &Monitor::default()).expect("nobody interrupts");
-        (film, processor_seconds() - start)
-    };
-    let shots = (0..runs).map(|_| once());
-    let (film, seconds) = shots.min_by(|a, b| a.1.total_cmp(&b.1)).expect("at least one run");
-    (luminances(&film), seconds)
-}
-
-/// Processor time of this process so far \[s\], all threads together, where the system tells it (`utime` and `stime` of
-/// Linux, 100 a second); else the time of day.
-fn processor_seconds() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let fields: Vec<&str> = stat.rsplit(") ").next().unwrap_or("").split(' ').collect();
-    let ticks = |i: usize| fields.get(i).and_then(|field| field.parse::<f64>().ok());
-    let of_day = || std::time::UNIX_EPOCH.elapsed().map_or(0.0, |since| since.as_secs_f64());
-    ticks(11).zip(ticks(12)).map_or_else(of_day, |(user, system)| (user + system) / 100.0)
+    let shots = (0..runs).map(|_| clock::shot(pipeline, SIZE));
+    let (film, took) =
+        shots.min_by(|a, b| a.1.processor.total_cmp(&b.1.processor)).expect("at least one run");
+    (luminances(&film), took.processor)
 }
 
 /// √mean (a − b)², relative to the 99th percentile of b, which is shown as white.

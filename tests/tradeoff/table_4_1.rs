@@ -1,0 +1,117 @@
+//! Table 4.1 of the thesis remade: a town of some 800 objects, its sky light by bands, cuboid, patches and rays, with maps and
+//! without.
+
+use std::path::Path;
+
+use keikan::pipeline::Pipeline;
+use keikan_tests::{build, luminances};
+
+use crate::clock::{Took, shot};
+
+type Knobs = [(&'static str, &'static str)];
+
+/// Size of pictures without maps, which take long.
+const SMALL: (u32, u32) = (240, 135);
+/// Size of pictures with maps.
+const LARGE: (u32, u32) = (1920, 1080);
+
+/// Rays a place of the picture that the others are judged by.
+const CONVERGED: &str = "8192";
+
+/// Who asks how much of the sky is seen, coarse and fine.
+const STAGES: [(&str, &Knobs); 12] = [
+    ("bands 20", &[BANDS, ("sky.bands", "20")]),
+    ("bands 40", &[BANDS, ("sky.bands", "40")]),
+    ("bands 80", &[BANDS, ("sky.bands", "80")]),
+    ("cuboid 20", &[CUBOID, ("sky.elements", "20")]),
+    ("cuboid 40", &[CUBOID, ("sky.elements", "40")]),
+    ("cuboid 80", &[CUBOID, ("sky.elements", "80")]),
+    ("patches 7", &[PATCHES, ("sky.patches", "7")]),
+    ("patches 14", &[PATCHES, ("sky.patches", "14")]),
+    ("patches 28", &[PATCHES, ("sky.patches", "28")]),
+    ("rays 64", &[RAYS, ("sky.rays", "64")]),
+    ("rays 256", &[RAYS, ("sky.rays", "256")]),
+    ("rays 1024", &[RAYS, ("sky.rays", "1024")]),
+];
+
+const BANDS: (&str, &str) = ("sky.visibility", "bands");
+const CUBOID: (&str, &str) = ("sky.visibility", "cuboid");
+const PATCHES: (&str, &str) = ("sky.visibility", "patches");
+const RAYS: (&str, &str) = ("sky.visibility", "rays");
+
+fn town(figure: &str) -> scene::Scene {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/thesis");
+    scene::load(&root.join(format!("fig-{figure}.toml"))).expect("the thesis' scene")
+}
+
+/// 4.22: grey levels of 255, white = the 99th percentile of `truth`.
+fn rms(seen: &[f32], truth: &[f32]) -> f64 {
+    let mut sorted = truth.to_vec();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let white = f64::from(sorted[sorted.len() * 99 / 100]);
+    let squares: f64 =
+        seen.iter().zip(truth).map(|(&a, &b)| (255.0 * f64::from(a - b) / white).powi(2)).sum();
+    (squares / truth.len() as f64).sqrt()
+}
+
+pub(crate) fn table() {
+    for (figure, sky) in [("4-15", "overcast"), ("4-16a", "clear, sun 60\u{b0}")] {
+        let scene = town(figure);
+        without_maps(&scene, sky);
+        with_maps(&scene, sky);
+    }
+}
+
+/// Error and time of each stage asked for each place of a picture.
+fn without_maps(scene: &scene::Scene, sky: &str) {
+    println!(
+        "\ntable 4.1, {sky}: {} x {} without maps, RMS in grey levels against {CONVERGED} rays",
+        SMALL.0, SMALL.1
+    );
+    println!("{:<12} {:>8} {:>9}", "stage", "RMS", "cpu s");
+    let make = |knobs: &Knobs| build(scene, SMALL, knobs).1;
+    let (truth, _) = picture(&make(&[RAYS, ("sky.rays", CONVERGED)]), SMALL);
+    for (name, knobs) in STAGES {
+        let (seen, took) = picture(&make(knobs), SMALL);
+        println!("{name:<12} {:>8.3} {:>9.2}", rms(&seen, &truth), took.processor);
+    }
+}
+
+/// What the first picture of a map costs, and the further ones.
+fn with_maps(scene: &scene::Scene, sky: &str) {
+    println!("\ntable 4.1, {sky}: {} x {} with maps; wall s and cpu s", LARGE.0, LARGE.1);
+    println!("{:<12} {:>16} {:>16} {:>12}", "stage", "map and picture", "further picture", "map alone");
+    for (name, knobs) in STAGES
+        .iter()
+        .filter(|(name, _)| ["bands 40", "cuboid 40", "cuboid 80", "patches 14", "rays 64"].contains(name))
+    {
+        let pipeline = build(scene, LARGE, &[knobs, &[("sky.map", "on")][..]].concat()).1;
+        let [first, further] = [shot(&pipeline, LARGE).1, shot(&pipeline, LARGE).1];
+        println!(
+            "{name:<12} {:>7.2} {:>8.2} {:>7.2} {:>8.2} {:>12.2}",
+            first.wall,
+            first.processor,
+            further.wall,
+            further.processor,
+            first.processor - further.processor
+        );
+    }
+    // The same pixels with maps and without, at a size that the latter takes.
+    for (name, knobs) in STAGES.iter().filter(|(name, _)| ["cuboid 40", "rays 64"].contains(name)) {
+        let mapped = build(scene, SMALL, &[knobs, &[("sky.map", "on")][..]].concat()).1;
+        shot(&mapped, SMALL);
+        let with = shot(&mapped, SMALL).1.processor;
+        let without = shot(&build(scene, SMALL, knobs).1, SMALL).1.processor;
+        println!(
+            "{name}, {} x {}: without a map {:.1} times as long as a further picture with one",
+            SMALL.0,
+            SMALL.1,
+            without / with
+        );
+    }
+}
+
+fn picture(pipeline: &Pipeline, size: (u32, u32)) -> (Vec<f32>, Took) {
+    let (film, took) = shot(pipeline, size);
+    (luminances(&film), took)
+}
