@@ -13,7 +13,7 @@ use crate::command::{load, pretty, say, warn};
 use crate::frames::{Frames, numbered};
 use crate::output::{self, Target};
 use crate::pipeline::Monitor;
-use crate::publish::{self, Page};
+use crate::publish::{self, Content, Page};
 use crate::report::{self, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
 use crate::{Error, caption, progress};
@@ -204,7 +204,7 @@ impl Job {
         monitor.rendering.store(true, Ordering::Relaxed);
         let Shot { scene, plan, film } = studio.frame(&self.spec, monitor, &mut stages)?;
         let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
-        for warning in of_scene.chain(plan.shadows.warning()) {
+        for warning in of_scene.chain(plan.warnings.iter().cloned()) {
             if warnings.insert(warning.clone()) {
                 eprintln!("warning: {warning}");
             }
@@ -217,13 +217,14 @@ impl Job {
             .map(|file| Ok((file.as_path(), Target::new(file)?)))
             .collect::<Result<_, Error>>()?;
         let page = Page {
-            view: &args.view,
+            scene_file: args.view.scene.as_deref(),
             develop: &args.develop,
             scene: &scene,
             plan: &plan,
             pictures: &pictures,
+            content: Content::default(),
         };
-        let exposure = stages.time("write", || page.write(targets, monitor))?;
+        let exposure = stages.time("write", || page.write(targets, Vec::new(), monitor))?;
         Ok(Frame {
             frame: self.number,
             written: true,

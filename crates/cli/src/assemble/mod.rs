@@ -3,6 +3,7 @@
 mod heavens;
 mod lights;
 mod materials;
+mod open_sky;
 mod solids;
 
 use std::sync::Arc;
@@ -18,9 +19,12 @@ use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
 
+#[cfg(test)]
 pub(crate) use heavens::skies;
+pub(crate) use heavens::{lacks, place_of_sun};
 pub(crate) use lights::outline;
 pub(crate) use materials::mirrors;
+pub(crate) use open_sky::OpenSky;
 
 /// Builds the stages that `plan` names for `scene`.
 ///
