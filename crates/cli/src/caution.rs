@@ -7,8 +7,15 @@ use crate::knobs::Settings;
 use crate::plan::sky_model;
 use crate::shadows::Shadows;
 
-/// The sun's altitude at which twilight ends and the skies by name give no light any more \[degrees\].
-const NIGHT: f64 = -18.0;
+/// The sun's altitude from which on a sky is black \[degrees\]: the tables of daylight end with twilight; light scattered by air
+/// of height H, where neither what looks nor what is lit is farther than the horizon: −2 acos(R/(R + H)).
+fn night(model: &str) -> f64 {
+    match model {
+        "physical" => -20.2,
+        "thesis" => -11.1,
+        _ => -18.0,
+    }
+}
 
 /// All of them.
 pub(crate) fn warnings(scene: &Scene, settings: &Settings, shadows: &Shadows) -> Vec<String> {
@@ -26,7 +33,7 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
     if altitude >= 0.0 || matches!(model, "none" | "measured") || (model == "perez" && weather && !formula) {
         return None;
     }
-    let night = altitude <= NIGHT;
+    let night = altitude <= night(model);
     let what = match model {
         _ if formula => "by Nagata's formula it gives no light: it is black",
         "physical" | "thesis" if night => {
@@ -35,7 +42,7 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
         // Scattering knows where the sun is.
         "physical" if !stated => return None,
         "thesis" if !stated => {
-            "light is scattered once only, in air up to 30 km: too dark a twilight, and none from 6° on"
+            "light is scattered once only, in air up to 30 km: too dark a twilight, and next to none from 6° on"
         }
         _ if stated => "it is as bright as stated, spread as with the sun on the horizon",
         _ if night => "by the tables of daylight it gives no light below -18°: it is black",

@@ -67,7 +67,7 @@ impl Unit {
         match self {
             Self::Luminance => "cd/m2",
             Self::Share(_) => "share",
-            Self::Plain => "|a - b|",
+            Self::Plain => "difference",
         }
     }
 

@@ -34,7 +34,9 @@ pub(crate) fn run(args: &Sky, json: bool) -> Result<(), Error> {
     let destination = check(args, json)?;
     let targets: Vec<Target> = args.output.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let scene = scene(args)?;
-    warn(&scene);
+    if args.place.is_none() && args.sun.is_none() {
+        warn(&scene);
+    }
     let mut plan = Plan::new(&scene, &view(args))?;
     caution(&plan);
     let none = "the scene has no sky to show; --model NAME gives it one (keikan plan lists the names)";
