@@ -36,12 +36,14 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
     let night = altitude <= night(model);
     let what = match model {
         _ if formula => "by Nagata's formula it gives no light: it is black",
-        "physical" | "thesis" if night => {
-            "the air there is lit by nothing: the sky is black, whatever its illuminance"
-        }
+        "thesis" if night => "nothing lights the air: the sky is black, whatever its illuminance",
         // Scattering knows where the sun is.
-        "physical" if !stated => return None,
-        "thesis" if !stated => {
+        "physical" | "thesis" if stated => {
+            "it is as bright as stated, spread and coloured as the last of twilight"
+        }
+        "physical" if night => "next to nothing lights the air: the sky is black",
+        "physical" => return None,
+        "thesis" => {
             "light is scattered once only, in air up to 30 km: too dark a twilight, and next to none from 6° on"
         }
         _ if stated => "it is as bright as stated, spread as with the sun on the horizon",

@@ -81,7 +81,7 @@ fn a_place_and_a_time_are_enough() {
     assert!((direct / (facing * sin) - 1.0).abs() < 1e-5 && (global / (sky + direct) - 1.0).abs() < 1e-6);
     // Skies are bluer than their sun.
     let x = |of: &serde_json::Value| number(&of[0]);
-    assert!(x(&report["sky"]["zenith_chromaticity"]) < x(&report["sky"]["diffuse_chromaticity"]));
+    assert!(x(&report["sky"]["zenith_chromaticity"]) < x(&report["sun"]["chromaticity"]));
     assert!(x(&report["sky"]["diffuse_chromaticity"]) < x(&report["sun"]["chromaticity"]));
     assert_eq!(files(&folder), 0);
 }
@@ -95,7 +95,7 @@ fn a_scene_is_asked_for_its_own_sky_and_others() {
     assert!(number(&noon["sun"]["altitude"]) > number(&own["sun"]["altitude"]));
     assert_eq!(noon["sky"]["traits"]["turbidity β (Ångström)"], 0.09);
     let perez = json(&folder, &["sky", "--json", "--sun", "40,180", "--model", "perez"]);
-    assert!(number(&perez["sky"]["traits"]["clearness ε"]) > 6.2, "a clear day by default");
+    assert!(number(&perez["sky"]["traits"]["clearness ε"]) > 4.5, "a clear day by default");
     assert!(perez["time"].is_null());
 }
 
@@ -338,17 +338,15 @@ fn a_sky_of_the_day_says_when_the_sun_is_down() {
         ("model = \"physical\"", -30.0, "the sky is black"),
         ("model = \"clear\"", -30.0, "it is black"),
         ("model = \"clear\"\nilluminance = 900", -30.0, "as bright as stated"),
-        ("model = \"physical\"\nilluminance = 900", -30.0, "black, whatever its illuminance"),
+        ("model = \"thesis\"\nilluminance = 900", -30.0, "black, whatever its illuminance"),
+        ("model = \"physical\"\nilluminance = 900", -8.0, "as bright as stated"),
         ("scale = \"nagata\"", -3.0, "by Nagata's formula it gives no light"),
     ] {
         let words = said(&folder, altitude, sky, "plan");
         assert!(words.contains(word), "{sky}: {words}");
-        let report = {
-            said(&folder, altitude, sky, "plan");
-            json(&folder, &["sky", "dusk.toml", "--json"])
-        };
-        // The words are true.
-        let black = number(&report["sky"]["horizontal_lux"]) == 0.0;
+        // The words are true: a millionth of a lux is a thousandth of a starlit night.
+        let report = json(&folder, &["sky", "dusk.toml", "--json"]);
+        let black = number(&report["sky"]["horizontal_lux"]) < 1e-6;
         assert_eq!(black, !word.contains("stated"), "{sky}: {report}");
     }
 }

@@ -69,7 +69,13 @@ pub fn encode(pictures: &[Picture], header: &Header) -> std::result::Result<Vec<
 }
 
 fn attributes(header: &Header) -> LayerAttributes {
-    let text = |text: &str| Text::new_or_none(text);
+    // The format has Latin-1, and what is not would take the whole text with it.
+    let latin = |c: char| match c {
+        '−' => '-',
+        c if u32::from(c) < 256 => c,
+        _ => '?',
+    };
+    let text = |text: &str| Text::new_or_none(text.chars().map(latin).collect::<String>());
     let mut attributes = LayerAttributes {
         white_luminance: Some(header.white_luminance),
         layer_position: Vec2(header.corner[0] as i32, header.corner[1] as i32),
