@@ -103,7 +103,7 @@ fn a_scene_takes_its_sky_from_a_table() {
         ),
         (
             "table = 'sky.csv'\nweather = 'a.epw'",
-            "line 2, column 9, [sky], key \"table\": is not possible beside weather",
+            "line 3, column 11, [sky], key \"weather\": is not possible beside table",
         ),
         ("model = 'measured'", "line 2, column 9, [sky], key \"model\": \"measured\" needs a table"),
     ] {

@@ -51,6 +51,9 @@ fn weather(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Arc<Observed>>, E
         return Ok(None);
     };
     let spot = root.key("sky").key("weather");
+    if file.sky.as_ref().is_some_and(|sky| sky.table.is_some()) {
+        return Err(spot.error("is not possible beside table: one of them says how bright the sky is"));
+    }
     if file.site.as_ref().is_none_or(|site| site.time.is_none()) {
         return Err(spot.error(format!("needs a [site] with a time; {EXAMPLE}")));
     }
@@ -221,9 +224,6 @@ fn measured(spot: &Spot<'_>, table: &SkyTable, model: &str) -> Result<Option<Arc
         };
     };
     let key = spot.key("table");
-    if table.weather.is_some() {
-        return Err(key.error("is not possible beside weather: one of them says how bright the sky is"));
-    }
     if model != MEASURED {
         let said = format!("{model:?} is not possible beside table: leave it out, or write \"measured\"");
         return Err(spot.key("model").error(said));
