@@ -53,7 +53,7 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
         }
     };
     Some(format!(
-        "the sun is {:.2}° below the horizon, but the sky {model} is one of the day: {what}",
+        "the sun is {:.2}° below the horizon, and the sky {model} is one of the day: {what}",
         -altitude
     ))
 }

@@ -322,7 +322,7 @@ fn a_sky_of_the_day_says_when_the_sun_is_down() {
     for command in ["render", "plan", "lux", "sky"] {
         let words = said(&folder, -3.25, "model = \"cie-12\"", command);
         assert!(
-            words.contains("warning: the sun is 3.25° below the horizon, but the sky cie-12"),
+            words.contains("warning: the sun is 3.25° below the horizon, and the sky cie-12"),
             "{command}: {words}"
         );
         let words = said(&folder, 3.25, "model = \"cie-12\"", command);

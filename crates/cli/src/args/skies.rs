@@ -74,7 +74,7 @@ pub enum Projection {
     Horizontal,
 }
 
-/// LATITUDE,LONGITUDE[,ELEVATION].
+/// LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,ELEVATION.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Degrees, north +.
