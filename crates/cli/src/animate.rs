@@ -13,7 +13,7 @@ use crate::command::{load, pretty, say, studio, warn};
 use crate::frames::{Frames, numbered};
 use crate::output::{self, Target};
 use crate::pipeline::Monitor;
-use crate::publish::{self, Page};
+use crate::publish::{self, Content, Page};
 use crate::report::{self, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
 use crate::{Error, caption, map_file, progress};
@@ -208,7 +208,7 @@ impl Job {
         let Shot { scene, plan, film } = studio.frame(&self.spec, monitor, &mut stages)?;
         map_file::tell(studio.maps());
         let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
-        for warning in of_scene.chain(plan.shadows.warning()) {
+        for warning in of_scene.chain(plan.warnings.iter().cloned()) {
             if warnings.insert(warning.clone()) {
                 eprintln!("warning: {warning}");
             }
@@ -221,13 +221,14 @@ impl Job {
             .map(|file| Ok((file.as_path(), Target::new(file)?)))
             .collect::<Result<_, Error>>()?;
         let page = Page {
-            view: &args.view,
+            scene_file: args.view.scene.as_deref(),
             develop: &args.develop,
             scene: &scene,
             plan: &plan,
             pictures: &pictures,
+            content: Content::default(),
         };
-        let exposure = stages.time("write", || page.write(targets, monitor))?;
+        let exposure = stages.time("write", || page.write(targets, Vec::new(), monitor))?;
         Ok(Frame {
             frame: self.number,
             written: true,

@@ -1,5 +1,7 @@
 //! The command line.
 
+mod skies;
+
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -7,6 +9,8 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
+
+pub use skies::{Place, Projection, Sky, Toward, When};
 
 /// Landscape and lighting simulation: pictures and lux one can trust.
 #[derive(Debug, Parser)]
@@ -34,6 +38,8 @@ pub enum Command {
     Plan(PlanArgs),
     /// Illuminance at the scene's sensors, by source.
     Lux(Lux),
+    /// What the sky of a place and time is: luminance, lux, colours; as a table, as a picture.
+    Sky(Sky),
     /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
     Compare(Compare),
     /// Print the JSON Schema of scene files.
@@ -169,11 +175,18 @@ pub struct Lux {
 
 /// `keikan compare`.
 #[derive(Args, Clone, Debug)]
+#[command(mut_arg("layers", |argument| argument.hide(true)))]
 pub struct Compare {
     /// The picture to judge.
     pub a: PathBuf,
     /// The picture to judge it by.
     pub b: PathBuf,
+    /// Draw |a − b|; .exr and .png tell the format; may be repeated. False colour is of luminance.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// How it becomes files.
+    #[command(flatten)]
+    pub develop: Develop,
 }
 
 /// How luminance becomes grey.

@@ -9,10 +9,10 @@ use scene::Scene;
 use crate::args::{self, Cli, Command};
 use crate::output::{self, Target};
 use crate::plan::Plan;
-use crate::publish::{self, Page};
+use crate::publish::{self, Content, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
-use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress};
+use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress, skies};
 
 /// The scene that is rendered when none is named.
 const PARK: &str = include_str!("../scenes/park.toml");
@@ -31,7 +31,8 @@ pub fn run(cli: &Cli) -> Result<(), Error> {
         Command::Animate(args) => animate::run(args, cli.json),
         Command::Plan(args) => plan(args, cli.json),
         Command::Lux(args) => illuminances(args, cli.json),
-        Command::Compare(args) => difference(args, cli.json),
+        Command::Sky(args) => skies::run(args, cli.json),
+        Command::Compare(args) => compare::run(args, cli.json),
         Command::Schema => say(&pretty(&scene::schema())),
     })
 }
@@ -46,7 +47,9 @@ pub(crate) fn load(path: Option<&Path>) -> Result<Scene, Error> {
 
 fn plan(args: &args::PlanArgs, json: bool) -> Result<(), Error> {
     let scene = load(args.view.scene.as_deref())?;
+    warn(&scene);
     let mut plan = Plan::new(&scene, &args.view)?;
+    caution(&plan);
     if !scene.solids.is_empty() {
         plan.share_of_rays = Some(assemble::assemble(&plan, &scene)?.share_of_rays());
     }
@@ -60,6 +63,7 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
         return Err(Error::Usage("the scene has no [[sensor]]: nothing to measure".to_owned()));
     }
     let plan = Plan::new(&scene, &args.view)?;
+    caution(&plan);
     let pipeline = assemble::assemble(&plan, &scene)?;
     let table = lux::table(&scene, &pipeline);
     for u in &table.uniformity {
@@ -69,11 +73,6 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
         );
     }
     say(&if json { pretty(&table) } else { table.to_string() })
-}
-
-fn difference(args: &args::Compare, json: bool) -> Result<(), Error> {
-    let difference = compare::compare(&compare::read(&args.a)?, &compare::read(&args.b)?)?;
-    say(&if json { pretty(&difference) } else { difference.to_string() })
 }
 
 fn render(args: &args::Render, json: bool) -> Result<(), Error> {
@@ -89,16 +88,22 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     drop(film);
     let site = caption::describe(&scene);
     let files: Vec<_> = outputs.iter().map(PathBuf::as_path).zip(targets).collect();
-    let page =
-        Page { view: &args.view, develop: &args.develop, scene: &scene, plan: &plan, pictures: &pictures };
-    let exposure = seconds.time("write", || page.write(files, &monitor))?;
+    let page = Page {
+        scene_file: args.view.scene.as_deref(),
+        develop: &args.develop,
+        scene: &scene,
+        plan: &plan,
+        pictures: &pictures,
+        content: Content::default(),
+    };
+    let exposure = seconds.time("write", || page.write(files, Vec::new(), &monitor))?;
     if let Some(path) = &args.maps {
         seconds.time("maps", || map_file::write(path, studio.maps()))?;
     }
     let luminance = &pictures[0].luminance;
     let mean = luminance.iter().map(|&l| f64::from(l)).sum::<f64>() / luminance.len().max(1) as f64;
     let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
-    let warnings = of_scene.chain(plan.shadows.warning()).collect();
+    let warnings = of_scene.chain(plan.warnings.iter().cloned()).collect();
     let summary = Summary {
         plan,
         site,
@@ -149,6 +154,12 @@ fn outputs(args: &args::Render) -> Result<Vec<PathBuf>, Error> {
 pub(crate) fn warn(scene: &Scene) {
     for warning in &scene.warnings {
         eprintln!("warning: {}: {}", warning.place, warning.what);
+    }
+}
+
+pub(crate) fn caution(plan: &Plan) {
+    for warning in &plan.warnings {
+        eprintln!("warning: {warning}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! How much two pictures differ.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use light::colour::LUMINANCE;
@@ -11,7 +11,10 @@ use palette::white_point::D65;
 use palette::{Lab, LinSrgb};
 use rayon::prelude::*;
 
-use crate::Error;
+use crate::command::{pretty, say};
+use crate::output::{self, Header, Target};
+use crate::publish::{self, Unit};
+use crate::{Error, args};
 
 /// A picture read back: linear sRGB.
 #[derive(Clone, Debug)]
@@ -43,6 +46,54 @@ pub struct Difference {
     pub ssim: f64,
     /// True when every number of both is the same to the bit.
     pub identical: bool,
+}
+
+/// `keikan compare`.
+///
+/// # Errors
+/// A picture that cannot be read, sizes that differ, a file that cannot be written.
+pub(crate) fn run(args: &args::Compare, json: bool) -> Result<(), Error> {
+    publish::check(&args.output, &args.develop)?;
+    if args.develop.layers {
+        return Err(Error::Usage("--layers: a difference has one layer".to_owned()));
+    }
+    let targets: Vec<Target> = args.output.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
+    let (a, b) = (read(&args.a)?, read(&args.b)?);
+    let difference = compare(&a, &b)?;
+    if !targets.is_empty() {
+        let picture = apart(&a, &b);
+        let header = || Header {
+            owner: args.develop.owner.clone(),
+            comments: format!(
+                "keikan: |a - b| of a = {}, b = {}, in their unit",
+                args.a.display(),
+                args.b.display()
+            ),
+            whole: [a.width as u32, a.height as u32],
+            ..Header::default()
+        };
+        let mut said = None;
+        let encoded = args.output.iter().zip(targets).map(|(path, target)| {
+            let develop = (&args.develop, Unit::Plain);
+            Ok((target, publish::encode(path, std::slice::from_ref(&picture), develop, header, &mut said)?))
+        });
+        output::write(&encoded.collect::<Result<Vec<_>, Error>>()?)?;
+        said.iter().for_each(|said| eprintln!("{said}"));
+        args.output.iter().for_each(|path: &PathBuf| eprintln!("wrote {}", path.display()));
+    }
+    say(&if json { pretty(&difference) } else { difference.to_string() })
+}
+
+/// |a − b| of every channel, and of luminance, in the pictures' unit.
+fn apart(a: &Picture, b: &Picture) -> output::Picture {
+    let pairs = || a.rgb.iter().zip(&b.rgb).map(|(&a, &b)| a - b);
+    output::Picture {
+        width: a.width,
+        height: a.height,
+        name: String::new(),
+        rgb: pairs().map(Vec3::abs).collect(),
+        luminance: pairs().map(|difference| difference.dot(LUMINANCE).abs()).collect(),
+    }
 }
 
 /// Reads an EXR or PNG.
@@ -184,6 +235,17 @@ mod tests {
         // |3.3 − 3| / 3, both rounded to f32.
         assert!((other.relative_rmse - 0.1).abs() < 4.0 * f64::from(f32::EPSILON));
         assert!(!other.identical && other.delta_e_mean > 1.0);
+    }
+
+    #[test]
+    fn the_difference_is_absolute_and_of_luminance_first() {
+        let mut other = flat(3.0);
+        other.rgb[5] = Vec3::new(1.0, 5.0, 3.0);
+        let apart = apart(&flat(3.0), &other);
+        assert_eq!(apart.rgb[5], Vec3::new(2.0, 2.0, 0.0));
+        // Red and green cancel in part: 2 · (0.7152 − 0.2126).
+        assert!((apart.luminance[5] - 2.0 * (LUMINANCE.y - LUMINANCE.x)).abs() <= 4.0 * f32::EPSILON);
+        assert!(apart.luminance.iter().enumerate().all(|(i, &y)| i == 5 || y == 0.0));
     }
 
     #[test]

@@ -92,7 +92,7 @@ impl FromStr for Day {
 }
 
 /// `HH:MM` or `HH:MM:SS` in seconds.
-fn clock(text: &str) -> Result<f64, String> {
+pub(crate) fn clock(text: &str) -> Result<f64, String> {
     let wrong = || format!("\"{text}\" is no time of day: write it like 05:30");
     let parts: Vec<u32> = text.split(':').map(str::parse).collect::<Result<_, _>>().map_err(|_| wrong())?;
     let (hours, minutes, seconds) = match parts[..] {

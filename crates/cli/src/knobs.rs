@@ -59,7 +59,7 @@ pub struct Knob {
 const SKIES: &[&str] = &[
     "scene", "clear", "overcast", "uniform", "physical", "thesis", "perez", "cie-1", "cie-2", "cie-3",
     "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11", "cie-12", "cie-13", "cie-14",
-    "cie-15", "none",
+    "cie-15", "measured", "none",
 ];
 
 /// All knobs. The costs are those of `docs/measurements`.
@@ -134,7 +134,25 @@ pub const KNOBS: &[Knob] = &[
         name: "sky.model",
         domain: Domain::Choice(SKIES),
         presets: ["scene"; 3],
-        doc: "the sky by name; scene = what the scene file says",
+        doc: "the sky by name; scene = what the scene file says; measured = its [sky] table",
+    },
+    Knob {
+        name: "sky.scale",
+        domain: Domain::Choice(&["own", "nagata"]),
+        presets: ["own"; 3],
+        doc: "how bright sun and sky are: each as its model or the scene says, or both by the formulas of Bouguer and Nagata (thesis 4.4), whatever the scene states; within 12° of the horizon the sun by its true air mass",
+    },
+    Knob {
+        name: "sky.transmittance",
+        domain: Domain::Number(0.01, 0.99),
+        presets: ["0.7"; 3],
+        doc: "the atmosphere's P at the zenith when sky.scale = nagata: .6 hazy, .7 ordinary, .8 very clear; sky over direct light on the ground at 30°: .54, .31, .16",
+    },
+    Knob {
+        name: "sky.clear",
+        domain: Domain::Number(0.0, 1.0),
+        presets: ["0"; 3],
+        doc: "share of clear air's colour in a measured sky, whose table has none: 0 = daylight D65 (clouds), 1 = as blue as clear air in every direction; 0.2 s more to begin with",
     },
     Knob {
         name: "sky.visibility",

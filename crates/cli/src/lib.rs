@@ -1,6 +1,6 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `animate`, `plan`, `lux`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `compare`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
@@ -10,6 +10,7 @@ mod animate;
 pub mod args;
 pub mod assemble;
 mod caption;
+mod caution;
 mod command;
 pub mod compare;
 mod error;
@@ -25,6 +26,7 @@ mod progress;
 mod publish;
 pub mod report;
 pub mod shadows;
+mod skies;
 pub mod studio;
 
 pub use command::run;

@@ -8,7 +8,7 @@ use crate::assemble::mirrors;
 use crate::knobs::{Preset, Settings};
 use crate::pipeline::Region;
 use crate::shadows::{Rule, Shadows};
-use crate::{Error, args, assemble};
+use crate::{Error, args, assemble, caution};
 
 /// Most pixels of all layers together: 2²⁷ spectra are 4 GiB, and developing them takes as much again.
 pub(crate) const MOST_PIXELS: u64 = 1 << 27;
@@ -40,6 +40,8 @@ pub struct Plan {
     pub stages: Vec<Stage>,
     /// Every knob.
     pub settings: Settings,
+    /// What may not be what one expects.
+    pub warnings: Vec<String>,
 }
 
 /// What a scene holds.
@@ -101,8 +103,9 @@ impl Plan {
             preset: args.preset,
             share_of_rays: None,
             stages: stages(scene, &settings, contents, &shadows),
-            shadows,
             contents,
+            warnings: caution::warnings(scene, &settings, &shadows),
+            shadows,
             settings,
         })
     }
@@ -161,13 +164,7 @@ fn size(camera: &Camera, asked: Option<args::Size>) -> (u32, u32) {
 
 /// What is possible alone may not be possible together.
 fn check(scene: &Scene, settings: &Settings) -> Result<(), Error> {
-    let model = sky_model(scene, settings);
-    let known: Vec<_> = assemble::skies().chain(["none"]).collect();
-    if !known.contains(&model) {
-        let said = format!("[sky] model = \"{model}\": no such sky; there are: {}", known.join(", "));
-        return Err(Error::Content(said));
-    }
-    Ok(())
+    assemble::lacks(scene, settings).map_or(Ok(()), |what| Err(Error::Content(what)))
 }
 
 fn region(asked: Option<args::Rectangle>, width: u32, height: u32) -> Result<Region, Error> {
@@ -212,6 +209,22 @@ fn sky_seen(settings: &Settings) -> String {
     }
 }
 
+/// Who says how bright sun or sky are, if not their models.
+fn scaled(settings: &Settings, formula: &str) -> String {
+    match settings.choice("sky.scale") {
+        "nagata" => format!(", as bright as {formula} says for P = {}", settings.choice("sky.transmittance")),
+        _ => String::new(),
+    }
+}
+
+/// How large the table of a measured sky is.
+fn table(scene: &Scene, model: &str) -> String {
+    let table = scene.sky.as_ref().and_then(|sky| sky.table.as_ref()).filter(|_| model == "measured");
+    table.map_or(String::new(), |table| {
+        format!(", by a table of {} altitudes and {} azimuths", table.altitudes.len(), table.azimuths.len())
+    })
+}
+
 /// How many materials let light through.
 fn transparent(scene: &Scene) -> usize {
     scene.materials.iter().filter(|material| material.medium().is_some()).count()
@@ -243,7 +256,13 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
         Some(sun) if sun.altitude > -0.5 * sun.diameter => stage(
             "illuminate",
             "sun",
-            format!("{:.2}° high, azimuth {:.2}°, disc of {:.3}°", sun.altitude, sun.azimuth, sun.diameter),
+            format!(
+                "{:.2}° high, azimuth {:.2}°, disc of {:.3}°{}",
+                sun.altitude,
+                sun.azimuth,
+                sun.diameter,
+                scaled(settings, "Bouguer")
+            ),
         ),
         Some(sun) => {
             stage("illuminate", "", format!("no sun: it is {:.2}° below the horizon", -sun.altitude))
@@ -252,7 +271,10 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
     };
     let sky = match sky_model(scene, settings) {
         "none" => stage("illuminate", "", "no sky: none is asked for".to_owned()),
-        model => stage("illuminate", &format!("sky {model}"), sky_seen(settings)),
+        model => {
+            let seen = sky_seen(settings) + &table(scene, model) + &scaled(settings, "Nagata");
+            stage("illuminate", &format!("sky {model}"), seen)
+        }
     };
     let lamps = lamps(scene, settings);
     let faces = settings.choice("accelerate");

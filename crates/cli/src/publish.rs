@@ -12,8 +12,8 @@ use crate::{Error, args, caption};
 
 /// A picture and what made it.
 pub(crate) struct Page<'a> {
-    /// What was asked for.
-    pub(crate) view: &'a args::View,
+    /// Where the scene came from; none = the embedded one.
+    pub(crate) scene_file: Option<&'a Path>,
     /// How it becomes files.
     pub(crate) develop: &'a args::Develop,
     /// What was looked at.
@@ -22,6 +22,62 @@ pub(crate) struct Page<'a> {
     pub(crate) plan: &'a Plan,
     /// The whole, then its layers.
     pub(crate) pictures: &'a [Picture],
+    /// What the numbers are.
+    pub(crate) content: Content,
+}
+
+/// What a picture shows, and in what unit.
+#[derive(Clone, Debug)]
+pub(crate) struct Content {
+    /// For the EXR's comments.
+    pub(crate) what: String,
+    /// In words.
+    pub(crate) unit: Unit,
+}
+
+/// The unit of a picture's numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Unit {
+    /// cd/m².
+    Luminance,
+    /// Shares of this luminance \[cd/m²\].
+    Share(f32),
+    /// That of what it was made from.
+    Plain,
+}
+
+impl Default for Content {
+    fn default() -> Self {
+        Self { what: "absolute radiometric rendering".to_owned(), unit: Unit::Luminance }
+    }
+}
+
+impl Unit {
+    /// After a number, in a message.
+    fn suffix(self) -> String {
+        match self {
+            Self::Luminance => "cd/m²".to_owned(),
+            Self::Share(whole) => format!("of {whole:.1} cd/m²"),
+            Self::Plain => "(in the pictures' unit)".to_owned(),
+        }
+    }
+
+    /// Above a legend, in ASCII.
+    fn legend(self) -> &'static str {
+        match self {
+            Self::Luminance => "cd/m2",
+            Self::Share(_) => "share",
+            Self::Plain => "difference",
+        }
+    }
+
+    /// cd/m² of a white of 1.
+    fn white(self) -> f32 {
+        match self {
+            Self::Luminance | Self::Plain => 1.0,
+            Self::Share(whole) => whole,
+        }
+    }
 }
 
 /// Whether files of these names can hold what is asked for.
@@ -51,20 +107,48 @@ fn is_exr(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
+/// The bytes of one file, by the name's extension. How a PNG was exposed is said.
+pub(crate) fn encode(
+    path: &Path,
+    pictures: &[Picture],
+    (develop, unit): (&args::Develop, Unit),
+    header: impl FnOnce() -> Header,
+    said: &mut Option<String>,
+) -> Result<Vec<u8>, Error> {
+    let failed = |what| Error::Output { path: path.display().to_string(), what };
+    let Some(whole) = pictures.first() else { return Err(failed("there is no picture".to_owned())) };
+    if is_exr(path) {
+        let header = Header { white_luminance: unit.white(), ..header() };
+        return output::encode_exr(pictures, &header).map_err(failed);
+    }
+    let suffix = unit.suffix();
+    if let Some(span) = develop.false_colour {
+        let scale = Scale::of(whole, span, develop.linear);
+        *said = Some(format!("false colour from {:.4} to {:.4} {suffix}", scale.low, scale.high));
+        return output::draw_false_colour(whole, &scale, unit.legend()).map_err(failed);
+    }
+    let exposure = Exposure::of(whole, develop.exposure, develop.tone);
+    *said = Some(format!(
+        "PNG: {:.4} {suffix} shown as mid grey, tone curve {:?}",
+        exposure.mid_grey, exposure.tone
+    ));
+    output::encode_png(whole, &exposure).map_err(failed)
+}
+
 impl Page<'_> {
-    /// Encodes everything first and writes then, so that an error leaves no file behind. How a PNG was exposed comes
-    /// back, in words.
+    /// Encodes everything first and writes then, together with files that are `ready`, so that an error leaves no file
+    /// behind. How a PNG was exposed comes back, in words.
     pub(crate) fn write(
         &self,
         files: Vec<(&Path, Target)>,
+        ready: Vec<(Target, Vec<u8>)>,
         monitor: &Monitor,
     ) -> Result<Option<String>, Error> {
         let mut said = None;
-        let mut written = Vec::new();
+        let mut written = ready;
         for (path, target) in files {
-            let bytes = self.encode(path, &mut said);
-            let bytes = bytes.map_err(|what| Error::Output { path: path.display().to_string(), what })?;
-            written.push((target, bytes));
+            let develop = (self.develop, self.content.unit);
+            written.push((target, encode(path, self.pictures, develop, || self.header(), &mut said)?));
         }
         if monitor.interrupted.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
@@ -73,30 +157,15 @@ impl Page<'_> {
         Ok(said)
     }
 
-    fn encode(&self, path: &Path, said: &mut Option<String>) -> Result<Vec<u8>, String> {
-        let (whole, develop) = (&self.pictures[0], self.develop);
-        if is_exr(path) {
-            return output::encode_exr(self.pictures, &self.header());
-        }
-        if let Some(span) = develop.false_colour {
-            let scale = Scale::of(whole, span, develop.linear);
-            *said = Some(format!("false colour from {:.4} to {:.4} cd/m²", scale.low, scale.high));
-            return output::draw_false_colour(whole, &scale);
-        }
-        let exposure = Exposure::of(whole, develop.exposure, develop.tone);
-        *said = Some(format!(
-            "PNG: {:.4} cd/m² shown as mid grey, tone curve {:?}",
-            exposure.mid_grey, exposure.tone
-        ));
-        output::encode_png(whole, &exposure)
-    }
-
     fn header(&self) -> Header {
-        let Self { view, scene, plan, .. } = self;
-        let named =
-            view.scene.as_ref().map_or("park (embedded)".to_owned(), |path| path.display().to_string());
+        let Self { scene, plan, .. } = self;
+        let named = self.scene_file.map_or("park (embedded)".to_owned(), |path| path.display().to_string());
+        let unit = match self.content.unit {
+            Unit::Luminance | Unit::Plain => "R G B and Y in cd/m2 (photopic, 683 lm/W)".to_owned(),
+            Unit::Share(whole) => format!("R G B and Y as shares of {whole} cd/m2 (photopic, 683 lm/W)"),
+        };
         let made_by = serde_json::json!({
-            "unit": "R G B and Y in cd/m2 (photopic, 683 lm/W)",
+            "unit": unit,
             "site": caption::describe(scene),
             "scene": named,
             "camera": plan.camera,
@@ -109,10 +178,11 @@ impl Page<'_> {
             utc_offset: -(scene.site.offset.seconds() as f32),
             capture_date: caption::local_time(scene),
             owner: self.develop.owner.clone(),
-            comments: format!("keikan: absolute radiometric rendering; {}", caption::describe(scene)),
+            comments: format!("keikan: {}; {}", self.content.what, caption::describe(scene)),
             made_by: made_by.to_string(),
             corner: [plan.region.columns.start, plan.region.rows.start],
             whole: [plan.width, plan.height],
+            ..Header::default()
         }
     }
 }

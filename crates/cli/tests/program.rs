@@ -57,6 +57,9 @@ fn the_exr_says_what_it_is() {
         attributes.capture_date.as_ref().map(ToString::to_string),
         Some("2026:10:25 15:10:00".to_owned())
     );
+    let comments = attributes.comments.as_ref().map(ToString::to_string).unwrap_or_default();
+    assert!(comments.contains("2026-10-25 06:10:00 UTC") && comments.contains("from -Z"), "{comments}");
+    assert!(attributes.other.keys().any(|name| name == "keikan"), "what made it");
     let channels: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
     for name in ["R", "G", "B", "Y", "sun.R", "sky.G", "lantern.B", "emission.R"] {
         assert!(channels.contains(&name.to_owned()), "{name} is missing from {channels:?}");

@@ -1,7 +1,7 @@
 //! A scene as plain, checked data, and the only readers of files.
 //!
 //! **Answers.** [`load`] turns a scene file (TOML), a glTF/GLB model and everything they name (textures,
-//! IES and EULUMDAT photometry, terrain points, EPW weather) into one [`Scene`]: metres, +Y up, recentred, every index in
+//! IES and EULUMDAT photometry, terrain points, EPW weather, measured skies) into one [`Scene`]: metres, +Y up, recentred, every index in
 //! range, every number finite. It is the last place where anything can fail on input.
 //!
 //! ```
@@ -33,6 +33,7 @@ mod material;
 pub mod photometry;
 mod regular_file;
 mod scene;
+pub mod sky_table;
 mod solid;
 mod sun;
 pub mod triangulate;
@@ -41,9 +42,10 @@ pub mod weather;
 pub use camera_path::CameraPath;
 pub(crate) use daylight::Daylight;
 pub use error::{Error, Warning};
-pub use load::{MAX_BYTES, load, parse, schema};
+pub use load::{MAX_BYTES, load, moment, parse, schema};
 pub use material::{Material, NormalMap, UvTransform, Volume};
 pub use scene::*;
+pub use sky_table::SkyTable;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
 pub use weather::Weather;

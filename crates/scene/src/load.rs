@@ -27,6 +27,7 @@ use crate::file::SceneFile;
 use crate::{Error, Scene, Sky, Warning, regular_file};
 use draft::Draft;
 pub(crate) use placement::look_along;
+pub use site::moment;
 
 /// The longest scene file that is read \[bytes\].
 pub const MAX_BYTES: u64 = 256 << 20;
@@ -95,7 +96,7 @@ pub fn schema() -> serde_json::Value {
 
 /// A model as a scene.
 fn model(path: &Path) -> Result<Scene, Error> {
-    let sky = Some(Sky { model: "clear".to_owned(), illuminance: None, weather: None });
+    let sky = Some(Sky { model: "clear".to_owned(), illuminance: None, weather: None, table: None });
     let mut draft = Draft { sky, sun_is_open: true, ..Draft::default() };
     models::add_file(&mut draft, path)?;
     if draft.sun.is_none() {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, Vec3};
 use light::{Distribution, Geometry, Projection};
 
-use crate::{CameraPath, Daylight, Material, Solid, Warning, Weather};
+use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Weather};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -146,12 +146,14 @@ pub struct Sun {
 /// What lights from all around.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
-    /// Name of the model: `clear`, `overcast`, `uniform`, …; `cli` knows which exist.
+    /// Name of the model: `clear`, `overcast`, `uniform`, `measured`, …; `cli` knows which exist.
     pub model: String,
     /// Horizontal diffuse illuminance \[lx\]; none = the model's own.
     pub illuminance: Option<f64>,
     /// What was observed at this time of the year, if the file names a weather file.
     pub weather: Option<Weather>,
+    /// What was measured, if the file names a table; the model is then `measured`.
+    pub table: Option<Arc<SkyTable>>,
 }
 
 /// An eye.

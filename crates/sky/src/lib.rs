@@ -85,7 +85,7 @@ pub use distribution::{Distribution, Gradation};
 pub use dome::{Description, Dome, GROUND_ALBEDO, SAMPLES};
 pub use luminous::{Luminous, OVERCAST_TEMPERATURE};
 pub use measured::{LuminanceTable, TableError};
-pub use model::{Conditions, Model};
+pub use model::{Conditions, Model, measured_sky};
 pub use patches::{PATCH_ROWS, PatchSky, Sight};
 pub use perez::{Perez, SOLAR_CONSTANT};
 pub use phase::Lobes;

@@ -7,7 +7,8 @@ use glam::Vec3;
 use crate::general_sky;
 use crate::scale::Scaled;
 use crate::{
-    Air, AirSky, Distribution, Luminous, Perez, SOLAR_CONSTANT, Scale, Sky, bouguer, diffuse_illuminance,
+    Air, AirSky, Distribution, LuminanceTable, Luminous, Perez, SOLAR_CONSTANT, Scale, Sky, bouguer,
+    diffuse_illuminance,
 };
 
 /// A sky that can be chosen by name.
@@ -87,8 +88,8 @@ impl Conditions {
         AirSky::new(&air, self.toward_sun, self.elevation_m)
     }
 
-    /// The weather, or a clear day's.
-    fn weather_or_clear(&self) -> Perez {
+    /// What [`Model::Perez`] shows: the weather, or a clear day's.
+    pub fn perez(&self) -> Perez {
         let altitude = self.sun_altitude();
         self.weather.unwrap_or_else(|| {
             let direct = bouguer::direct_normal(SOLAR_CONSTANT, CLEAR_TRANSMITTANCE, altitude);
@@ -133,10 +134,9 @@ impl Model {
     /// The sky itself. Those with a clear sky's colours take some 0.2 s to make, the others nothing.
     pub fn sky(self, conditions: &Conditions) -> Arc<dyn Sky> {
         let altitude = conditions.sun_altitude();
-        let (sky, own): (Arc<dyn Sky>, Scale) = match self {
-            Self::Physical => (Arc::new(conditions.in_air(Air::CLEAR)), Scale::Own),
-            Self::Thesis => (Arc::new(conditions.in_air(Air::THESIS)), Scale::Own),
-            _ => self.luminous(conditions),
+        let (sky, own): (Arc<dyn Sky>, Scale) = match self.air() {
+            Some(air) => (Arc::new(conditions.in_air(air)), Scale::Own),
+            None => self.luminous(conditions),
         };
         let scale = if conditions.scale == Scale::Own { own } else { conditions.scale };
         Arc::new(Scaled::new(sky, scale, altitude))
@@ -152,7 +152,7 @@ impl Model {
                 (Distribution::cie(number).unwrap_or(Distribution::UNIFORM), clear, ies(clear))
             }
             Self::Perez => {
-                let weather = conditions.weather_or_clear();
+                let weather = conditions.perez();
                 let clear = weather.clear_share();
                 let own = match conditions.weather {
                     Some(_) => Scale::Horizontal(weather.illuminances(PRECIPITABLE_WATER)[0] as f32),
@@ -164,13 +164,42 @@ impl Model {
             Self::Overcast => (Distribution::MoonSpencer, 0.0, ies(0.0)),
             _ => (Distribution::CIE_CLEAR, 1.0, ies(1.0)),
         };
-        let sky = Luminous::new(distribution, conditions.toward_sun);
-        if clear == 0.0 {
-            return (Arc::new(sky), own);
-        }
-        let air = Arc::new(conditions.in_air(Air::CLEAR));
-        (Arc::new(sky.coloured(air, clear as f32)), own)
+        (coloured(distribution, clear, conditions), own)
     }
+
+    /// The air that scatters its light, if its luminance is computed from air.
+    pub fn air(self) -> Option<Air> {
+        match self {
+            Self::Physical => Some(Air::CLEAR),
+            Self::Thesis => Some(Air::THESIS),
+            _ => None,
+        }
+    }
+}
+
+/// The sky of measured luminances, as bright as they are unless `conditions` scale it. A table has no spectrum: it
+/// gets one as other distributions do ([`Luminous`]), clear air's for `clear_share` of its light, within \[0, 1\].
+///
+/// ```
+/// use std::sync::Arc;
+/// use glam::Vec3;
+/// use keikan_sky::{Conditions, LuminanceTable, measured_sky};
+/// let table = LuminanceTable::new(vec![0.0, 90.0], vec![0.0], vec![500.0, 2000.0]).unwrap();
+/// let sky = measured_sky(Arc::new(table), 0.0, &Conditions::new(Vec3::Y));
+/// assert!((sky.radiance(Vec3::Y).luminance() / 2000.0 - 1.0).abs() < 1e-6); // rounding of eight bands
+/// ```
+pub fn measured_sky(table: Arc<LuminanceTable>, clear_share: f64, conditions: &Conditions) -> Arc<dyn Sky> {
+    let sky = coloured(Distribution::Measured(table), clear_share, conditions);
+    Arc::new(Scaled::new(sky, conditions.scale, conditions.sun_altitude()))
+}
+
+/// A distribution with the colour of clear air for a share of its light, of clouds for the rest.
+fn coloured(distribution: Distribution, clear: f64, conditions: &Conditions) -> Arc<dyn Sky> {
+    let sky = Luminous::new(distribution, conditions.toward_sun);
+    if clear == 0.0 {
+        return Arc::new(sky);
+    }
+    Arc::new(sky.coloured(Arc::new(conditions.in_air(Air::CLEAR)), clear as f32))
 }
 
 #[cfg(test)]

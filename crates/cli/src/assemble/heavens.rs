@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use light::{Bodies, Geometry, Illuminate, Spectrum};
-use scene::Scene;
+use scene::{Scene, SkyTable};
 use sky::map::{Described, Mapped};
 use sky::{
-    BandSky, Conditions, CuboidSky, Description, Division, Dome, Model, PatchSky, Perez, Scale, WholeSky,
+    BandSky, Conditions, CuboidSky, Description, Division, Dome, LuminanceTable, Model, PatchSky, Perez,
+    Scale, WholeSky, bouguer, measured_sky,
 };
 
 use super::lights::{beam, risen};
@@ -18,14 +19,47 @@ use crate::plan;
 
 /// The skies that there are.
 pub(crate) fn skies() -> impl Iterator<Item = &'static str> {
-    Model::all().map(Model::name)
+    Model::all().map(Model::name).chain([MEASURED])
+}
+
+/// The sky that is a table.
+const MEASURED: &str = "measured";
+
+/// A sky that was asked for and is there.
+#[derive(Clone)]
+pub(super) enum Asked {
+    Named(Model),
+    /// Azimuths from −Z.
+    Measured(Arc<LuminanceTable>),
 }
 
 /// What the layer of the sky is called.
 pub(super) const SKY: &str = "sky";
 
-pub(super) fn model(scene: &Scene, settings: &Settings) -> Option<Model> {
-    Model::named(plan::sky_model(scene, settings))
+/// Which sky; none if none is asked for.
+pub(super) fn asked(scene: &Scene, settings: &Settings) -> Option<Asked> {
+    match plan::sky_model(scene, settings) {
+        MEASURED => {
+            let table = scene.sky.as_ref()?.table.as_deref()?;
+            turned(table, scene.site.north).ok().map(|table| Asked::Measured(Arc::new(table)))
+        }
+        name => Model::named(name).map(Asked::Named),
+    }
+}
+
+/// What keeps a sky that was asked for from being there, in words.
+pub(crate) fn lacks(scene: &Scene, settings: &Settings) -> Option<String> {
+    let model = plan::sky_model(scene, settings);
+    if model == MEASURED {
+        return match scene.sky.as_ref().and_then(|sky| sky.table.as_deref()) {
+            None => Some("sky.model = measured: the scene's [sky] names no table".to_owned()),
+            Some(table) => turned(table, scene.site.north).err().map(|error| format!("[sky] table: {error}")),
+        };
+    }
+    (model != "none" && asked(scene, settings).is_none()).then(|| {
+        let known: Vec<_> = skies().chain(["none"]).collect();
+        format!("[sky] model = \"{model}\": no such sky; there are: {}", known.join(", "))
+    })
 }
 
 pub(super) fn sky(
@@ -34,7 +68,7 @@ pub(super) fn sky(
     bodies: Option<&dyn Bodies>,
     maps: &mut Maps,
 ) -> Option<Source> {
-    let description = describe(scene, settings, model(scene, settings)?);
+    let description = describe(scene, settings, asked(scene, settings)?);
     let seen = seen(scene, settings, &description, bodies);
     let light: Box<dyn Illuminate> = match settings.choice("sky.map") {
         "on" => Box::new(mapped(scene, settings, seen, maps)),
@@ -43,19 +77,44 @@ pub(super) fn sky(
     Some(Source { name: SKY.to_owned(), light, beam: false, point: None })
 }
 
-fn describe(scene: &Scene, settings: &Settings, model: Model) -> Description {
-    // A sky knows where the sun stands also when it does not shine: switched off, or below the horizon.
-    let sun = scene.sun.clone().or_else(|| scene.site.sun());
-    let sun = sun.as_ref();
-    let toward_sun = sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3());
-    let shining = scene.sun.as_ref().filter(|sun| risen(sun));
-    let sun_horizontal = shining.map_or(Spectrum::ZERO, |s| beam(scene, s) * toward_sun.y.max(0.0));
+/// Where the sun stands: a sky knows it also when it does not shine, switched off or below the horizon.
+pub(crate) fn place_of_sun(scene: &Scene) -> Option<scene::Sun> {
+    scene.sun.clone().or_else(|| scene.site.sun())
+}
+
+/// What the sky is made for.
+pub(super) fn conditions(scene: &Scene, settings: &Settings) -> Conditions {
+    let sun = place_of_sun(scene);
     let stated = scene.sky.as_ref().and_then(|sky| sky.illuminance);
-    let conditions = Conditions {
-        scale: stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+    Conditions {
+        scale: match transmittance(settings) {
+            Some(transmittance) => Scale::Nagata(transmittance),
+            None => stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
+        },
         elevation_m: scene.site.elevation,
-        weather: sun.and_then(|sun| weather(scene, sun)),
-        ..Conditions::new(toward_sun)
+        weather: sun.as_ref().and_then(|sun| weather(scene, sun)),
+        ..Conditions::new(sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3()))
+    }
+}
+
+/// That of the atmosphere at the zenith, where Bouguer and Nagata say how bright sun and sky are.
+fn transmittance(settings: &Settings) -> Option<f64> {
+    (settings.choice("sky.scale") == "nagata").then(|| settings.number("sky.transmittance"))
+}
+
+/// Illuminance by the sun on a plane that faces it, by Bouguer's formula where that is asked for \[lx\].
+pub(super) fn formula_sun(settings: &Settings, altitude: f64) -> Option<f64> {
+    transmittance(settings).map(|transmittance| bouguer::sun_illuminance(transmittance, altitude))
+}
+
+pub(super) fn describe(scene: &Scene, settings: &Settings, asked: Asked) -> Description {
+    let conditions = conditions(scene, settings);
+    let shining = scene.sun.as_ref().filter(|sun| risen(sun));
+    let sun_horizontal =
+        shining.map_or(Spectrum::ZERO, |sun| beam(scene, settings, sun) * conditions.toward_sun.y.max(0.0));
+    let sky = match asked {
+        Asked::Named(model) => model.sky(&conditions),
+        Asked::Measured(table) => measured_sky(table, settings.number("sky.clear"), &conditions),
     };
     Description {
         sun_horizontal,
@@ -65,8 +124,24 @@ fn describe(scene: &Scene, settings: &Settings, model: Model) -> Description {
             _ => None,
         },
         samples: settings.integer("sky.rays"),
-        ..Description::new(model.sky(&conditions))
+        ..Description::new(sky)
     }
+}
+
+/// The table with its azimuths from −Z instead of true north.
+fn turned(table: &SkyTable, north: f64) -> Result<LuminanceTable, sky::TableError> {
+    let from_ahead = |azimuth: f64| match (azimuth + north).rem_euclid(360.0) as f32 {
+        // What rounds up to the full circle is its beginning.
+        turn if turn >= 360.0 => 0.0,
+        turn => turn,
+    };
+    let mut columns: Vec<(f32, usize)> =
+        table.azimuths.iter().map(|&azimuth| from_ahead(azimuth)).zip(0..).collect();
+    columns.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let rows = table.luminances.chunks(columns.len().max(1));
+    let luminances = rows.flat_map(|row| columns.iter().map(|&(_, column)| row[column])).collect();
+    let altitudes = table.altitudes.iter().map(|&altitude| altitude as f32).collect();
+    LuminanceTable::new(altitudes, columns.iter().map(|&(azimuth, _)| azimuth).collect(), luminances)
 }
 
 /// The observed state of the sky, as Perez' model takes it.

@@ -45,7 +45,7 @@ pub(super) fn sources(
 /// built for it.
 pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
     let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some()));
-    let sky = heavens::model(scene, settings).map(|_| (SKY.to_owned(), false));
+    let sky = heavens::asked(scene, settings).map(|_| (SKY.to_owned(), false));
     let points = scene.lights.iter().map(|light| (light.name.clone(), true));
     let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
     sun.into_iter().chain(sky).chain(points).chain(areas).collect()
@@ -81,14 +81,16 @@ fn colour(spectrum: &LightSpectrum) -> Spectrum {
     }
 }
 
-/// The sun's beam facing it \[W m⁻² nm⁻¹\]: as stated, or what clear air lets through.
-pub(super) fn beam(scene: &Scene, sun: &scene::Sun) -> Spectrum {
+/// The sun's beam facing it \[W m⁻² nm⁻¹\]: by Bouguer's formula if that is asked for, as stated, or what clear air lets
+/// through.
+pub(super) fn beam(scene: &Scene, settings: &Settings, sun: &scene::Sun) -> Spectrum {
     let own = atmosphere::direct_beam(sun.altitude, scene.site.elevation, atmosphere::CLEAR_TURBIDITY);
     let coloured = match &sun.spectrum {
         Some(spectrum) => colour(spectrum).of_luminance(own.luminance()),
         None => own,
     };
-    match sun.illuminance.or(heavens::observed_sun(scene, sun).map(f64::from)) {
+    let formula = heavens::formula_sun(settings, sun.altitude);
+    match formula.or(sun.illuminance).or(heavens::observed_sun(scene, sun).map(f64::from)) {
         // A stated illuminance of a sun whose own beam has faded away is white.
         Some(lux) if coloured.is_zero() => Spectrum::ONE.of_luminance(lux as f32),
         Some(lux) => coloured.of_luminance(lux as f32),
@@ -101,11 +103,11 @@ pub(super) fn risen(sun: &scene::Sun) -> bool {
     sun.altitude > -0.5 * sun.diameter
 }
 
-fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
+pub(super) fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     let sun = scene.sun.as_ref()?;
     let light = Sun {
         toward: sun.toward.as_vec3(),
-        irradiance: beam(scene, sun),
+        irradiance: beam(scene, settings, sun),
         angular_diameter_deg: sun.diameter as f32,
         samples: settings.integer("sun.samples"),
     };

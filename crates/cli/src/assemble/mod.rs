@@ -4,6 +4,7 @@ mod heavens;
 mod lights;
 mod maps;
 mod materials;
+mod open_sky;
 mod solids;
 
 use std::sync::Arc;
@@ -19,10 +20,13 @@ use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
 
+#[cfg(test)]
 pub(crate) use heavens::skies;
+pub(crate) use heavens::{lacks, place_of_sun};
 pub(crate) use lights::outline;
 pub use maps::Maps;
 pub(crate) use materials::mirrors;
+pub(crate) use open_sky::OpenSky;
 
 /// Builds the stages that `plan` names for `scene`.
 ///

@@ -28,6 +28,8 @@ pub struct Header {
     pub corner: [u32; 2],
     /// Columns and rows of the whole picture.
     pub whole: [u32; 2],
+    /// Luminance of RGB (1, 1, 1) \[cd/m²\]: 1 where pixels are cd/m².
+    pub white_luminance: f32,
 }
 
 /// The bytes of an EXR with `R G B` and `Y` of the first picture, and `name.R …` of the others.
@@ -67,10 +69,15 @@ pub fn encode(pictures: &[Picture], header: &Header) -> std::result::Result<Vec<
 }
 
 fn attributes(header: &Header) -> LayerAttributes {
-    let text = |text: &str| Text::new_or_none(text);
+    // The format has Latin-1, and what is not would take the whole text with it.
+    let latin = |c: char| match c {
+        '−' => '-',
+        c if u32::from(c) < 256 => c,
+        _ => '?',
+    };
+    let text = |text: &str| Text::new_or_none(text.chars().map(latin).collect::<String>());
     let mut attributes = LayerAttributes {
-        // Pixels are cd/m²: RGB (1, 1, 1) is a white of 1 cd/m².
-        white_luminance: Some(1.0),
+        white_luminance: Some(header.white_luminance),
         layer_position: Vec2(header.corner[0] as i32, header.corner[1] as i32),
         latitude: Some(header.latitude),
         longitude: Some(header.longitude),

@@ -68,11 +68,11 @@ fn palette(share: f32) -> [u8; 3] {
     [c.r, c.g, c.b]
 }
 
-/// The bytes of a PNG: the picture in false colour with isolines, the legend to its right.
+/// The bytes of a PNG: the picture in false colour with isolines, the legend to its right below its `unit` (ASCII).
 ///
 /// # Errors
 /// What the encoder refuses, as text.
-pub fn draw(picture: &Picture, scale: &Scale) -> Result<Vec<u8>, String> {
+pub fn draw(picture: &Picture, scale: &Scale, unit: &str) -> Result<Vec<u8>, String> {
     let (width, height) = (picture.width + LEGEND, picture.height);
     let mut canvas = vec![[24u8; 3]; width * height];
     let step = |x: usize, y: usize| {
@@ -87,11 +87,11 @@ pub fn draw(picture: &Picture, scale: &Scale) -> Result<Vec<u8>, String> {
             canvas[y * width + x] = if crossed { colour.map(|c| c / 3) } else { colour };
         }
     }
-    legend(&mut canvas, width, height, picture.width, scale);
+    legend(&mut canvas, [width, height], picture.width, scale, unit);
     png_file::png(canvas.as_flattened(), width, height)
 }
 
-fn legend(canvas: &mut [[u8; 3]], width: usize, height: usize, left: usize, scale: &Scale) {
+fn legend(canvas: &mut [[u8; 3]], [width, height]: [usize; 2], left: usize, scale: &Scale, unit: &str) {
     let (top, bottom) = (3 * GLYPH, height.saturating_sub(2 * GLYPH));
     for y in top..bottom {
         let share = 1.0 - (y - top) as f32 / (bottom - top).max(1) as f32;
@@ -99,7 +99,7 @@ fn legend(canvas: &mut [[u8; 3]], width: usize, height: usize, left: usize, scal
             canvas[y * width + x] = palette(share);
         }
     }
-    text(canvas, width, height, left + GLYPH, GLYPH, "cd/m2");
+    text(canvas, width, height, left + GLYPH, GLYPH, unit);
     for i in 0..=STEPS {
         let share = i as f32 / STEPS as f32;
         let y = bottom as f32 - share * (bottom.saturating_sub(top)) as f32;

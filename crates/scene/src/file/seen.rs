@@ -63,6 +63,9 @@ pub(crate) struct SkyTable {
     pub(crate) illuminance: Option<f64>,
     /// An EnergyPlus weather file (`.epw`), relative to this file; needs a `[site] time`.
     pub(crate) weather: Option<PathBuf>,
+    /// Measured luminances by altitude and azimuth (CSV as `keikan sky --table` writes it), relative to this file;
+    /// instead of `model` and `weather`.
+    pub(crate) table: Option<PathBuf>,
     /// Further keys are handed to the model as settings `sky.KEY`.
     #[serde(flatten)]
     pub(crate) more: std::collections::BTreeMap<String, super::Setting>,

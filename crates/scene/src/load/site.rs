@@ -10,6 +10,7 @@ use super::draft::Draft;
 use crate::daylight::Observed;
 use crate::document::Spot;
 use crate::file::{Moment, SceneFile, SiteTable, SkyTable, SunTable};
+use crate::sky_table;
 use crate::weather::{self, Station};
 use crate::{Error, SUN_DIAMETER, Site, Sky, Sun, Warning};
 
@@ -50,6 +51,9 @@ fn weather(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Arc<Observed>>, E
         return Ok(None);
     };
     let spot = root.key("sky").key("weather");
+    if file.sky.as_ref().is_some_and(|sky| sky.table.is_some()) {
+        return Err(spot.error("is not possible beside table: one of them says how bright the sky is"));
+    }
     if file.site.as_ref().is_none_or(|site| site.time.is_none()) {
         return Err(spot.error(format!("needs a [site] with a time; {EXAMPLE}")));
     }
@@ -104,8 +108,24 @@ fn time(spot: &Spot<'_>, moment: &Moment) -> Result<(Timestamp, Offset), Error> 
         Moment::Text(text) => text.clone(),
         Moment::Native(datetime) => datetime.to_string(),
     };
-    let wrong = |why: &str| spot.error(format!("{text:?}: {why}; {EXAMPLE}"));
-    let pieces = Pieces::parse(&text).map_err(|error| wrong(&error.to_string()))?;
+    self::moment(&text).map_err(|what| spot.error(what))
+}
+
+/// A moment and the offset of the clock that shows it, as ISO 8601 writes them: `2026-06-21T10:00:00+09:00`.
+///
+/// ```
+/// let (time, offset) = keikan_scene::moment("2026-06-21T10:00:00+09:00")?;
+/// assert_eq!((time.to_string().as_str(), offset.seconds()), ("2026-06-21T01:00:00Z", 32_400));
+/// assert!(keikan_scene::moment("2026-02-30T10:00:00+09:00").is_err()); // no such day
+/// # Ok::<(), String>(())
+/// ```
+///
+/// # Errors
+/// What is wrong with `text`, in words, and an example: no such day, no offset, an offset that no clock on earth
+/// has, years beyond 1 to 2999.
+pub fn moment(text: &str) -> Result<(Timestamp, Offset), String> {
+    let wrong = |why: &str| format!("{text:?}: {why}; {EXAMPLE}");
+    let pieces = Pieces::parse(text).map_err(|error| wrong(&error.to_string()))?;
     let clock = pieces.time().ok_or_else(|| wrong("the time of day is missing"))?;
     let offset = pieces.to_numeric_offset().ok_or_else(|| wrong("the offset from UTC is missing"))?;
     // Clocks on earth run from UTC−12 to UTC+14.
@@ -167,20 +187,47 @@ fn explicit(spot: &Spot<'_>, table: &SunTable, site: &Site) -> Result<Option<Sun
 /// The sky: as `[sky]` says, else a clear one where place and time are given.
 fn sky(root: &Spot<'_>, file: &SceneFile) -> Result<Option<Sky>, Error> {
     let timed = file.site.as_ref().is_some_and(|site| site.time.is_some());
-    let clear = || Sky { model: "clear".to_owned(), illuminance: None, weather: None };
+    let clear = || Sky { model: "clear".to_owned(), illuminance: None, weather: None, table: None };
     let Some(table) = &file.sky else { return Ok(timed.then(clear)) };
     let SkyTable { off, model, illuminance, .. } = table;
     if *off {
         return Ok(None);
     }
     let spot = root.key("sky");
-    let own = || if table.weather.is_some() { "perez".to_owned() } else { clear().model };
+    let own = || match (&table.weather, &table.table) {
+        (Some(_), _) => "perez".to_owned(),
+        (None, Some(_)) => MEASURED.to_owned(),
+        (None, None) => clear().model,
+    };
     let model = model.clone().unwrap_or_else(own);
+    let measured = measured(&spot, table, &model)?;
     if model.is_empty() {
         return Err(spot
             .key("model")
             .error("is empty; clear, overcast and uniform are among the possible names"));
     }
     let illuminance = illuminance.map(|lx| spot.key("illuminance").within(lx, 0.0, 1e6, "lx")).transpose()?;
-    Ok(Some(Sky { model, illuminance, weather: None }))
+    Ok(Some(Sky { model, illuminance, weather: None, table: measured }))
+}
+
+/// The model of a sky with a table.
+const MEASURED: &str = "measured";
+
+/// The table that `[sky]` names. It is the whole sky: neither another model nor the weather have a say.
+fn measured(spot: &Spot<'_>, table: &SkyTable, model: &str) -> Result<Option<Arc<crate::SkyTable>>, Error> {
+    let Some(name) = &table.table else {
+        return match model {
+            MEASURED => {
+                Err(spot.key("model").error("\"measured\" needs a table beside it: table = \"sky.csv\""))
+            }
+            _ => Ok(None),
+        };
+    };
+    let key = spot.key("table");
+    if model != MEASURED {
+        let said = format!("{model:?} is not possible beside table: leave it out, or write \"measured\"");
+        return Err(spot.key("model").error(said));
+    }
+    let read = sky_table::read(&key.file(name)).map_err(|error| super::missing(&key, error))?;
+    Ok(Some(Arc::new(read)))
 }
