@@ -3,6 +3,7 @@
 mod agreement;
 mod cie171;
 mod cie171_area;
+mod cie171_daylight;
 mod cie171_glass;
 mod cut_faces;
 mod determinism;

@@ -45,7 +45,7 @@ fn building(site: &mut Site, lot: Lot, [wide, deep]: [f64; 2]) {
         lot.block(site, stuff, [0.0, 0.0], [low, y + 0.95], [wide + 0.3, deep + 0.3]);
     }
     lot.block(site, stuff, [0.0, 0.0], [top - 0.6, top + 0.7], [wide + 0.36, deep + 0.36]);
-    for x in [-0.5, -0.17, 0.17, 0.5] {
+    for x in [-0.5, 0.0, 0.5] {
         // Walls between the flats, through the building.
         lot.block(site, stuff, [x * (wide - 1.5), 0.0], [0.02, top + 0.5], [2.4, deep + 0.44]);
     }

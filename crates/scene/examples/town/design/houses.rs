@@ -22,8 +22,8 @@ pub(crate) fn build(site: &mut Site) {
                 house(site, Lot { at, turn });
             }
         }
-        for k in 0..3 {
-            let along = (f64::from(k) - 1.0) * 0.3 * wide + site.between(-5.0, 5.0);
+        for k in 0..2 {
+            let along = (f64::from(k) - 0.5) * 0.4 * wide + site.between(-5.0, 5.0);
             let height = site.between(6.0, 11.0);
             let behind = site.between(-0.12, 0.12) * deep;
             site.tree([x + along, z + behind], height);

@@ -48,7 +48,7 @@ impl Stuff {
 
     fn look(self) -> (&'static str, [f64; 3]) {
         match self {
-            Self::Earth => ("earth", [0.19, 0.2, 0.15]),
+            Self::Earth => ("earth", [0.2, 0.2, 0.2]),
             Self::Asphalt => ("asphalt", [0.13, 0.13, 0.135]),
             Self::Marking => ("road marking", [0.6, 0.6, 0.58]),
             Self::Pavement => ("pavement", [0.33, 0.32, 0.3]),

@@ -37,7 +37,8 @@ pub(crate) fn extent([west, east, north, south]: Rectangle) -> ([f64; 2], [f64; 
 pub(crate) fn lay(site: &mut Site) {
     let whole = Lot::WHOLE;
     site.group("ground");
-    whole.block(site, Stuff::Earth, [0.0, 0.0], [-3.0, -0.12], [3000.0, 3000.0]);
+    // Of the albedo that `sky.albedo` gives the endless ground by default, so that the border does not show.
+    whole.block(site, Stuff::Earth, [0.0, 0.0], [-3.0, -0.12], [1000.0, 1000.0]);
     whole.block(site, Stuff::Asphalt, [0.0, 0.0], [-1.0, 0.0], [416.0, 400.0]);
     for rectangle in [CENTRE].iter().chain(&FLATS).chain(&HOUSES) {
         let (middle, size) = extent(*rectangle);
@@ -47,8 +48,22 @@ pub(crate) fn lay(site: &mut Site) {
         let (middle, [wide, deep]) = extent(*rectangle);
         whole.block(site, Stuff::Lawn, middle, [-0.4, 0.22], [wide - 6.0, deep - 6.0]);
     }
+    woods(site);
     site.group("markings");
     markings(site);
+}
+
+/// Woods around the town.
+fn woods(site: &mut Site) {
+    site.group("woods");
+    for i in 0..28 {
+        let around = site.between(0.0, 6.0) + 360.0 / 28.0 * f64::from(i);
+        let (sin, cos) = around.to_radians().sin_cos();
+        let away = site.between(425.0, 465.0);
+        let lot = Lot { at: [away * sin, away * cos], turn: around };
+        let size = [site.between(130.0, 180.0), site.between(36.0, 52.0), site.between(40.0, 60.0)];
+        lot.put(site, (Shape::Crown, Stuff::DarkLeaves), [0.0, -14.0, 0.0], size);
+    }
 }
 
 fn markings(site: &mut Site) {
