@@ -11,5 +11,6 @@ mod furnace;
 mod furnace_solids;
 mod luminaires;
 mod night;
+mod open_sky;
 mod photometry;
 mod table_2_1;

@@ -61,7 +61,7 @@ fn woods(site: &mut Site) {
         let (sin, cos) = around.to_radians().sin_cos();
         let away = site.between(425.0, 465.0);
         let lot = Lot { at: [away * sin, away * cos], turn: around };
-        let size = [site.between(130.0, 180.0), site.between(36.0, 52.0), site.between(40.0, 60.0)];
+        let size = [site.between(130.0, 180.0), site.between(48.0, 64.0), site.between(40.0, 60.0)];
         lot.put(site, (Shape::Crown, Stuff::DarkLeaves), [0.0, -14.0, 0.0], size);
     }
 }
