@@ -45,7 +45,8 @@ fn every_face_looks_outward() {
     }
 }
 
-/// Two faces in one plane that cover each other: which of them is seen, and what lies on which, is anybody's guess.
+/// Two faces in one plane that cover each other and face the same way: which of them is seen is anybody's guess. Those that
+/// face each other hide each other, and undersides are in the ground.
 #[test]
 fn no_two_faces_share_a_plane() {
     let geometry = geometry();
@@ -72,10 +73,13 @@ fn no_two_faces_share_a_plane() {
     assert!(found.is_empty(), "{} pairs: {:#?}", found.len(), &found[..found.len().min(5)]);
 }
 
-/// Whether all corners of `b` lie within 1 cm of the plane of `a`, and both have a common part wider than 1 cm, seen
+/// Whether both face the same way, all corners of `b` lie within 1 cm of the plane of `a`, and both have a common part wider than 1 cm, seen
 /// along the normal.
 fn cover(a: &Triangle, b: &Triangle) -> bool {
     let normal = a.cross().normalize();
+    if normal.y < -0.5 || normal.dot(b.cross()) < 0.0 {
+        return false;
+    }
     if b.0.iter().any(|corner| (*corner - a.0[0]).dot(normal).abs() > 0.01) {
         return false;
     }

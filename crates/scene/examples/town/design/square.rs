@@ -35,15 +35,12 @@ pub(crate) fn lay(site: &mut Site) {
 /// Six steps up to a terrace in front of tower B.
 fn terrace(site: &mut Site) {
     for i in 0..6 {
-        let rise = f64::from(i + 1) * 0.15;
-        let reach = 2.4 - 0.4 * f64::from(i);
-        WHOLE.block(
-            site,
-            Stuff::Granite,
-            [0.0, -15.0 + 0.5 * reach],
-            [0.02, PAVED + rise],
-            [56.0 - 0.1 * f64::from(i), 26.0 + reach],
-        );
+        let step = f64::from(i);
+        let rise = [0.02, PAVED + 0.15 * (step + 1.0)];
+        // Each sits a little within the one below on all other sides.
+        let (north, south) = (-28.0 + 0.06 * step, 0.4 - 0.4 * step);
+        let size = [56.0 - 0.12 * step, south - north];
+        WHOLE.block(site, Stuff::Granite, [0.0, 0.5 * (north + south)], rise, size);
     }
     let top = PAVED + 0.9;
     for x in [-20.0, -7.0, 7.0, 20.0] {

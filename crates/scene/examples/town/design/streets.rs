@@ -53,11 +53,14 @@ pub(crate) fn lay(site: &mut Site) {
     markings(site);
 }
 
-/// Woods around the town.
+/// Woods around the town but for the west-southwest, from where a low sun shines in.
 fn woods(site: &mut Site) {
     site.group("woods");
     for i in 0..28 {
         let around = site.between(0.0, 6.0) + 360.0 / 28.0 * f64::from(i);
+        if (262.0..342.0).contains(&around) {
+            continue;
+        }
         let (sin, cos) = around.to_radians().sin_cos();
         let away = site.between(425.0, 465.0);
         let lot = Lot { at: [away * sin, away * cos], turn: around };

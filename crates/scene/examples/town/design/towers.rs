@@ -155,9 +155,13 @@ fn fins(site: &mut Site, tower: &Tower, [low, top]: [f64; 2], [wide, deep]: [f64
         let count = (length / 4.6).round();
         for i in 0..=count as u32 {
             let at = (length - 0.5) * (f64::from(i) / count - 0.5);
-            let (middle, size) =
-                if across_x { ([0.0, at], [wide + 1.2, 0.42]) } else { ([at, 0.0], [0.42, deep + 1.2]) };
-            tower.lot.block(site, tower.stuff, middle, [low, top + 0.2], size);
+            // Fins that cross do not end in one plane.
+            let (middle, size, over) = if across_x {
+                ([0.0, at], [wide + 1.2, 0.42], 0.26)
+            } else {
+                ([at, 0.0], [0.42, deep + 1.2], 0.2)
+            };
+            tower.lot.block(site, tower.stuff, middle, [low, top + over], size);
         }
     };
     along(wide, false);
