@@ -3,6 +3,7 @@
 mod agreement;
 mod cie171;
 mod cie171_area;
+mod cie171_daylight;
 mod cie171_glass;
 mod cut_faces;
 mod determinism;
@@ -10,5 +11,6 @@ mod furnace;
 mod furnace_solids;
 mod luminaires;
 mod night;
+mod open_sky;
 mod photometry;
 mod table_2_1;
