@@ -160,7 +160,7 @@ fn room(text: &mut String, west: f64, opening: f64) {
 
 /// Per cent here and in the table, for every sky and the points of the small and of the large opening, 28 a sky.
 fn compared(set: &[(&str, &str)]) -> Vec<(f64, f64)> {
-    // Light from below the horizon does not get in: the sensors do not look down, but tables of it would cost time.
+    // Nothing from below the horizon gets in; without it no ray is spent on it.
     let set: Vec<(&str, &str)> = set.iter().copied().chain([("sky.albedo", "0")]).collect();
     let truths = ROOF_1.iter().zip(&ROOF_4);
     let of_sky = |(i, (small, large)): (usize, (&[f64; 14], &[f64; 14]))| {

@@ -32,62 +32,66 @@ struct Tower {
     podium_stuff: Stuff,
 }
 
+const TOWERS: [Tower; 5] = [
+    Tower {
+        name: "tower A",
+        lot: lot(-66.0, -44.0, 0.0),
+        size: [32.0, 28.0],
+        podium: [24.0, 22.0, 12.0],
+        parts: &[(62.0, [0.0, 0.0]), (93.0, [6.0, 5.0]), (118.0, [13.0, 10.0])],
+        skin: Skin::Bands,
+        stuff: Stuff::WhiteConcrete,
+        podium_stuff: Stuff::Sandstone,
+    },
+    Tower {
+        name: "tower B",
+        lot: lot(0.0, -54.0, 0.0),
+        size: [46.0, 22.0],
+        podium: [12.0, 12.0, 9.0],
+        parts: &[(74.0, [0.0, 0.0]), (92.0, [10.0, 4.0])],
+        skin: Skin::Fins,
+        stuff: Stuff::Sandstone,
+        podium_stuff: Stuff::Granite,
+    },
+    Tower {
+        name: "tower C",
+        lot: lot(64.0, -42.0, 0.0),
+        size: [30.0, 32.0],
+        podium: [22.0, 22.0, 12.0],
+        parts: &[(70.0, [0.0, 0.0]), (104.0, [8.0, 8.0])],
+        skin: Skin::Bands,
+        stuff: Stuff::GreyPanel,
+        podium_stuff: Stuff::Granite,
+    },
+    Tower {
+        name: "tower D",
+        lot: lot(-70.0, 38.0, 0.0),
+        size: [26.0, 40.0],
+        podium: [18.0, 20.0, 9.0],
+        parts: &[(64.0, [0.0, 0.0])],
+        skin: Skin::Grid,
+        stuff: Stuff::Terracotta,
+        podium_stuff: Stuff::Brick,
+    },
+    Tower {
+        name: "tower E",
+        lot: lot(69.0, 41.0, 14.0),
+        size: [28.0, 28.0],
+        podium: [14.0, 14.0, 9.0],
+        parts: &[(58.0, [0.0, 0.0]), (78.0, [7.0, 7.0])],
+        skin: Skin::Bands,
+        stuff: Stuff::CreamRender,
+        podium_stuff: Stuff::Sandstone,
+    },
+];
+
+const fn lot(x: f64, z: f64, turn: f64) -> Lot {
+    Lot { at: [x, z], turn }
+}
+
 /// All of them.
 pub(crate) fn build(site: &mut Site) {
-    let lot = |x: f64, z: f64, turn: f64| Lot { at: [x, z], turn };
-    let towers = [
-        Tower {
-            name: "tower A",
-            lot: lot(-66.0, -44.0, 0.0),
-            size: [32.0, 28.0],
-            podium: [24.0, 22.0, 12.0],
-            parts: &[(62.0, [0.0, 0.0]), (93.0, [6.0, 5.0]), (118.0, [13.0, 10.0])],
-            skin: Skin::Bands,
-            stuff: Stuff::WhiteConcrete,
-            podium_stuff: Stuff::Sandstone,
-        },
-        Tower {
-            name: "tower B",
-            lot: lot(0.0, -54.0, 0.0),
-            size: [46.0, 22.0],
-            podium: [12.0, 12.0, 9.0],
-            parts: &[(74.0, [0.0, 0.0]), (92.0, [10.0, 4.0])],
-            skin: Skin::Fins,
-            stuff: Stuff::Sandstone,
-            podium_stuff: Stuff::Granite,
-        },
-        Tower {
-            name: "tower C",
-            lot: lot(64.0, -42.0, 0.0),
-            size: [30.0, 32.0],
-            podium: [22.0, 22.0, 12.0],
-            parts: &[(70.0, [0.0, 0.0]), (104.0, [8.0, 8.0])],
-            skin: Skin::Bands,
-            stuff: Stuff::GreyPanel,
-            podium_stuff: Stuff::Granite,
-        },
-        Tower {
-            name: "tower D",
-            lot: lot(-70.0, 38.0, 0.0),
-            size: [26.0, 40.0],
-            podium: [18.0, 20.0, 9.0],
-            parts: &[(64.0, [0.0, 0.0])],
-            skin: Skin::Grid,
-            stuff: Stuff::Terracotta,
-            podium_stuff: Stuff::Brick,
-        },
-        Tower {
-            name: "tower E",
-            lot: lot(69.0, 41.0, 14.0),
-            size: [28.0, 28.0],
-            podium: [14.0, 14.0, 9.0],
-            parts: &[(58.0, [0.0, 0.0]), (78.0, [7.0, 7.0])],
-            skin: Skin::Bands,
-            stuff: Stuff::CreamRender,
-            podium_stuff: Stuff::Sandstone,
-        },
-    ];
-    for tower in &towers {
+    for tower in &TOWERS {
         site.group(tower.name);
         podium(site, tower);
         let mut low = tower.podium[2];
