@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::Vec3;
 use light::Spectrum;
 use light::bands::BANDS;
+use rayon::prelude::*;
 
 use crate::Sky;
 use crate::air::{Air, Optics, Wide};
@@ -73,7 +74,7 @@ impl AirSky {
                 view.integrals(&whole).map(|wide| Spectrum(wide.map(|x| x as f32)))
             })
         };
-        let mut table: Vec<[[Spectrum; 3]; COLUMNS]> = (0..ROWS).map(row).collect();
+        let mut table: Vec<[[Spectrum; 3]; COLUMNS]> = (0..ROWS).into_par_iter().map(row).collect();
         let floor = floor(&table);
         for cell in table.iter_mut().flatten() {
             for (part, floor) in cell.iter_mut().zip(floor) {

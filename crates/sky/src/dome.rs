@@ -66,7 +66,7 @@ impl Description {
 ///
 ///   E = E_open · Σ w_i T_i / Σ w_i,   w_i = L_i cos_i / p_i,   for the sky and for the ground by themselves
 ///
-/// band by band. Open places are therefore free of noise. As every ratio of estimates it is biased, by O(1/samples): with 48
+/// band by band, L_i looked up in parts of cells 0.9° × 1.4° wide. Open places are therefore free of noise. As every ratio of estimates it is biased, by O(1/samples): with 48
 /// and more by less than the mean of 400 seeds can show (0.1 to 0.7 % of what arrives). A part that no direction
 /// has met counts as hidden as the other. The result stays within \[0, E_open\].
 ///
@@ -126,11 +126,11 @@ impl Dome {
         let offset = shift(place.seed, PURPOSE);
         let (normal, facing) = (place.normal, self.cells.facing(place.normal));
         (0..self.samples).filter_map(move |i| {
-            let (direction, part, per_density) = facing.choose(lattice(i, self.samples, offset))?;
+            let (direction, sky, per_density) = facing.choose(lattice(i, self.samples, offset))?;
             let cosine = direction.dot(normal);
             (cosine > 0.0).then(|| {
-                let radiance = if part == 0 { self.around.sky.radiance(direction) } else { Spectrum::ONE };
-                (direction, part, radiance * (cosine * per_density))
+                let weight = sky.unwrap_or(Spectrum::ONE) * (cosine * per_density);
+                (direction, usize::from(sky.is_none()), weight)
             })
         })
     }

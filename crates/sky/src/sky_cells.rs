@@ -3,6 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 use glam::Vec3;
+use light::Spectrum;
 
 use crate::Sky;
 use crate::sky::lifted;
@@ -43,6 +44,8 @@ pub(crate) struct SkyCells {
     side: Vec3,
     /// W without the cosine.
     power: Box<[[f32; COLUMNS]; ROWS]>,
+    /// Radiance at FINE × FINE points of each cell of the sky, along fastest, then up.
+    radiance: Vec<[[Spectrum; FINE]; FINE]>,
     /// cos and sin of the azimuth at the middle of each column.
     azimuth: [[f32; COLUMNS]; 2],
     rows: [Row; ROWS],
@@ -103,29 +106,34 @@ impl SkyCells {
             ahead,
             side: ahead.cross(Vec3::Y),
             power: Box::new([[0.0; COLUMNS]; ROWS]),
+            radiance: Vec::with_capacity(SKY_ROWS * COLUMNS),
             azimuth: [middles.map(|[cos, _]: [f32; 2]| cos), middles.map(|[_, sin]| sin)],
             rows: std::array::from_fn(Row::new),
         };
         let scale = if mean.is_normal() { 1.0 / mean } else { 0.0 };
+        let flat = |radiance: &Spectrum| (radiance.luminance() * scale).max(DARKEST).powf(FLATTEN);
         for row in 0..ROWS {
+            let solid_angle = cells.rows[row].solid_angle;
             for column in 0..COLUMNS {
-                cells.power[row][column] = if row < GROUND_ROWS {
-                    ground * cells.rows[row].solid_angle
-                } else {
-                    let flat = |d| (sky.radiance(d).luminance() * scale).max(DARKEST).powf(FLATTEN);
-                    mean * cells.mean(row, column, flat)
-                };
+                cells.power[row][column] = solid_angle
+                    * if row < GROUND_ROWS {
+                        ground
+                    } else {
+                        let points = cells.points(row, column, sky);
+                        cells.radiance.push(points);
+                        let sum: f32 = points.as_flattened().iter().map(flat).sum();
+                        mean * sum / (FINE * FINE) as f32
+                    };
             }
         }
         cells
     }
 
-    /// The mean of `luminance` over a cell, times its solid angle.
-    fn mean(&self, row: usize, column: usize, luminance: impl Fn(Vec3) -> f32) -> f32 {
+    /// Radiance in the middles of the FINE × FINE parts of a cell.
+    fn points(&self, row: usize, column: usize, sky: &dyn Sky) -> [[Spectrum; FINE]; FINE] {
         let middle = |index: usize| (index as f32 + 0.5) / FINE as f32;
-        let points =
-            (0..FINE * FINE).map(|k| self.direction(row, column, [middle(k / FINE), middle(k % FINE)]));
-        points.map(luminance).sum::<f32>() * self.rows[row].solid_angle / (FINE * FINE) as f32
+        let at = |up, along| sky.radiance(self.direction(row, column, [middle(along), middle(up)]));
+        std::array::from_fn(|up| std::array::from_fn(|along| at(up, along)))
     }
 
     /// The direction at shares of a cell's azimuths and of its solid angle.
@@ -180,13 +188,15 @@ pub(crate) struct Facing<'a> {
 }
 
 impl Facing<'_> {
-    /// The direction that belongs to a point of the unit square, whether it is of the sky (0) or of the ground
-    /// (1), and the inverse of its density, on one scale for all; none where rounding has met a cell without
-    /// light.
+    /// The direction that belongs to a point of the unit square; the sky's radiance there, none for the ground; and the
+    /// inverse of its density, on one scale for all. None where rounding has met a cell without light.
+    ///
+    /// The radiance is that in the middle of a part 0.9° × 1.4° wide: to ask the sky itself for each of many directions took
+    /// longer than their rays, and what it would change lies below the noise of 10⁵ directions (1e-4 of an open place's light).
     ///
     /// First the azimuth, of sky and ground together, then the altitude: upright edges of what hides them are
     /// straight lines on the square, of which evenly spread points miss one at most.
-    pub(crate) fn choose(&self, at: [f32; 2]) -> Option<(Vec3, usize, f32)> {
+    pub(crate) fn choose(&self, at: [f32; 2]) -> Option<(Vec3, Option<Spectrum>, f32)> {
         let target = at[0] * self.columns[COLUMNS - 1];
         let column = self.columns.partition_point(|&sum| sum <= target).min(COLUMNS - 1);
         let before = if column == 0 { 0.0 } else { self.columns[column - 1] };
@@ -199,8 +209,11 @@ impl Facing<'_> {
             return None;
         }
         let within = [(target - before) / whole, (up - below) / weight].map(|share| share.clamp(0.0, 1.0));
-        let part = usize::from(row < GROUND_ROWS);
-        Some((self.cells.direction(row, column, within), part, self.cells.rows[row].solid_angle / weight))
+        let radiance = row.checked_sub(GROUND_ROWS).map(|row| {
+            let [along, up] = within.map(|share| ((share * FINE as f32) as usize).min(FINE - 1));
+            self.cells.radiance[row * COLUMNS + column][up][along]
+        });
+        Some((self.cells.direction(row, column, within), radiance, self.cells.rows[row].solid_angle / weight))
     }
 }
 
@@ -232,8 +245,9 @@ mod tests {
                 let mut sums = [0.0f64; 2];
                 let points =
                     (0..shifts).flat_map(|seed| (0..count).map(move |i| lattice(i, count, shift(seed, 1))));
-                for (direction, part, per_density) in points.filter_map(|at| facing.choose(at)) {
-                    let luminance = if part == 0 { sky.radiance(direction).luminance() } else { 1.0 };
+                for (direction, radiance, per_density) in points.filter_map(|at| facing.choose(at)) {
+                    let luminance = radiance.map_or(1.0, |radiance| radiance.luminance());
+                    let part = usize::from(radiance.is_none());
                     sums[part] += f64::from(luminance * direction.dot(normal).max(0.0) * per_density);
                 }
                 let scale = f64::from(facing.columns[COLUMNS - 1]) / f64::from(count * shifts);
@@ -274,7 +288,7 @@ mod tests {
         for i in 0..4096 {
             let chosen = facing.choose(lattice(i, 4096, shift(i, 1)));
             // Within each cell of ground the upper edge is left out, but for rounding.
-            assert!(chosen.is_none_or(|(d, part, _)| if part == 0 { d.y >= 0.0 } else { d.y <= 0.0 }));
+            assert!(chosen.is_none_or(|(d, sky, _)| if sky.is_some() { d.y >= 0.0 } else { d.y <= 0.0 }));
         }
     }
 }
