@@ -62,7 +62,7 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     if scene.sensors.is_empty() {
         return Err(Error::Usage("the scene has no [[sensor]]: nothing to measure".to_owned()));
     }
-    let plan = Plan::new(&scene, &args.view)?;
+    let plan = Plan::new(&scene, &args.view)?.at_sensors();
     caution(&plan);
     let pipeline = assemble::assemble(&plan, &scene)?;
     let table = lux::table(&scene, &pipeline);

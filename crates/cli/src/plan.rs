@@ -110,6 +110,12 @@ impl Plan {
         })
     }
 
+    /// The same for sensors in place of a picture.
+    #[must_use]
+    pub fn at_sensors(self) -> Self {
+        Self { settings: self.settings.at_sensors(), ..self }
+    }
+
     /// The camera that was chosen.
     pub fn camera<'a>(&self, scene: &'a Scene) -> Option<&'a Camera> {
         scene.cameras.get(self.eye)

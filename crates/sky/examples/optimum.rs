@@ -1,6 +1,7 @@
 //! The most even divisions of the receiving cuboid, with the data of the thesis' figures 4.7 and 4.8 as CSV.
 //!
-//! `cargo run --release -p keikan-sky --example optimum` (a minute). The rows of *figure 4.8* are the table in
+//! `cargo run --release -p keikan-sky --example optimum -- docs/pictures` (a minute); with a folder, both figures are drawn there
+//! as `fig-4-7.svg` and `fig-4-8.svg`. The rows of *figure 4.8* are the table in
 //! `src/cuboid/optimum.rs`. n = 40 throughout; g = C_max/C_min over the elements whose middle is above the horizon.
 //!
 //! *Where we differ from the thesis, and why.* Its m ≈ 1.15 and φ ≈ 75° for the overcast sky are found exactly, with φ between
@@ -12,8 +13,13 @@
 //! elements at the far edge of the sides become the darkest: m rises to 1.9. Whole numbers of elements make g jagged in m and φ, so
 //! that the least of a finer search lies a few per cent aside for other n.
 
+use std::error::Error;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
 use glam::{DVec3, Vec3};
 use keikan_sky::{Distribution, Layout};
+use plotters::prelude::*;
 
 const DIVISIONS: u32 = 40;
 
@@ -62,14 +68,21 @@ impl Case {
     }
 }
 
-fn main() {
+fn main() -> Result<(), Box<dyn Error>> {
     let overcast = Case { sky: Distribution::MoonSpencer, sun: Vec3::Y };
     println!("# figure 4.7: g of the overcast sky");
     println!("m,phi_deg,g");
-    for ratio in [0.8, 0.9, 1.0, 1.1, 1.15, 1.2, 1.3, 1.4] {
-        for opening in (50..=100).step_by(5).map(f64::from) {
-            println!("{ratio},{opening},{:.2}", overcast.evenness(ratio, opening));
-        }
+    let openings = (50..=100).step_by(5).map(f64::from);
+    let by_ratio: Vec<Curve> = [0.8, 0.9, 1.0, 1.15, 1.3]
+        .iter()
+        .map(|&ratio| {
+            let points =
+                openings.clone().map(|opening| (opening, overcast.evenness(ratio, opening))).collect();
+            (format!("m = {ratio}"), points)
+        })
+        .collect();
+    for (name, points) in &by_ratio {
+        points.iter().for_each(|(opening, g)| println!("{},{opening},{g:.2}", &name[4..]));
     }
     let [g, ratio, opening] = overcast.optimum();
     println!("# optimum (thesis: 1.15, 75, 3)");
@@ -77,9 +90,72 @@ fn main() {
 
     println!("# figure 4.8: the clear sky");
     println!("sun_altitude_deg,m,phi_deg,g,g_with_overcast_division");
+    let mut clear: [Vec<(f64, f64)>; 3] = Default::default();
     for altitude in (0..=90).step_by(5).map(f64::from) {
         let case = Case::clear(altitude);
         let [g, m, phi] = case.optimum();
         println!("{altitude},{m:.2},{phi:.0},{g:.2},{:.2}", case.evenness(ratio, opening));
+        [10.0 * m, phi, g].into_iter().zip(&mut clear).for_each(|(y, curve)| curve.push((altitude, y)));
     }
+    let Some(folder) = std::env::args().nth(1).map(PathBuf::from) else { return Ok(()) };
+    let marks = [
+        (format!("our least: m = {ratio:.2}, {opening:.0}°, g = {g:.1}"), (opening, g)),
+        ("the thesis': m = 1.15, 75°, g = 3".to_owned(), (75.0, 3.0)),
+    ];
+    let title = "Figure 4.7: g = C_max/C_min of the overcast sky";
+    draw(
+        &folder.join("fig-4-7.svg"),
+        title,
+        "opening angle of the top, degrees",
+        (50.0..100.0, 0.0..16.0),
+        &by_ratio,
+        &marks,
+    )?;
+    let names = ["10 m (ratio of widths)", "opening angle, degrees", "g"];
+    let curves: Vec<Curve> = names.iter().map(|name| (*name).to_owned()).zip(clear).collect();
+    let title = "Figure 4.8: the most even division under the CIE's clear sky";
+    draw(
+        &folder.join("fig-4-8.svg"),
+        title,
+        "altitude of the sun, degrees",
+        (0.0..90.0, 0.0..80.0),
+        &curves,
+        &[],
+    )
+}
+
+/// A name and points.
+type Curve = (String, Vec<(f64, f64)>);
+
+fn draw(
+    file: &Path,
+    title: &str,
+    along: &str,
+    (x, y): (Range<f64>, Range<f64>),
+    curves: &[Curve],
+    marks: &[(String, (f64, f64))],
+) -> Result<(), Box<dyn Error>> {
+    let area = SVGBackend::new(file, (720, 440)).into_drawing_area();
+    area.fill(&WHITE)?;
+    let mut chart = ChartBuilder::on(&area)
+        .caption(title, ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(40)
+        .y_label_area_size(40)
+        .build_cartesian_2d(x, y)?;
+    chart.configure_mesh().x_desc(along).draw()?;
+    for (i, (name, points)) in curves.iter().enumerate() {
+        let colour = Palette99::pick(i).to_rgba();
+        let line = chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
+        line.label(name)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
+    }
+    for (i, (name, point)) in marks.iter().enumerate() {
+        let style = if i == 0 { BLACK.filled() } else { BLACK.stroke_width(2) };
+        let mark = chart.draw_series([Circle::new(*point, 5, style)])?;
+        mark.label(name).legend(move |(x, y)| Circle::new((x + 10, y), 5, style));
+    }
+    chart.configure_series_labels().background_style(WHITE.mix(0.8)).border_style(BLACK).draw()?;
+    area.present()?;
+    Ok(())
 }
