@@ -11,7 +11,7 @@ use crate::clock::{Took, shot};
 type Knobs = [(&'static str, &'static str)];
 
 /// Size of pictures without maps, which take long.
-const SMALL: (u32, u32) = (160, 90);
+const SMALL: (u32, u32) = (96, 54);
 /// Size of pictures with maps.
 const LARGE: (u32, u32) = (1920, 1080);
 
@@ -19,10 +19,11 @@ const LARGE: (u32, u32) = (1920, 1080);
 const CONVERGED: &str = "2048";
 
 /// Who asks how much of the sky is seen, coarse and fine.
-const STAGES: [(&str, &Knobs); 12] = [
+const STAGES: [(&str, &Knobs); 13] = [
+    ("bands 10", &[BANDS, ("sky.bands", "10")]),
     ("bands 20", &[BANDS, ("sky.bands", "20")]),
     ("bands 40", &[BANDS, ("sky.bands", "40")]),
-    ("bands 80", &[BANDS, ("sky.bands", "80")]),
+    ("cuboid 10", &[CUBOID, ("sky.elements", "10")]),
     ("cuboid 20", &[CUBOID, ("sky.elements", "20")]),
     ("cuboid 40", &[CUBOID, ("sky.elements", "40")]),
     ("cuboid 80", &[CUBOID, ("sky.elements", "80")]),
