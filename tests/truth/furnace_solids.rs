@@ -63,7 +63,8 @@ struct Missing {
 
 /// A shader that counts what is missing.
 struct Counted {
-    shade: Box<dyn Shade>,
+    shaders: Arc<[Box<dyn Shade>]>,
+    index: usize,
     limits: Limits,
     missing: Arc<Mutex<Missing>>,
 }
@@ -88,9 +89,9 @@ struct Counting<'a> {
 
 impl Shade for Counted {
     fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
-        let scattered = self.shade.radiance(hit, &Scattered).max();
+        let scattered = self.shaders[self.index].radiance(hit, &Scattered).max();
         self.missing.lock().unwrap().scattered += f64::from(hit.path.share * scattered);
-        self.shade.radiance(hit, &Counting { around, by: self })
+        self.shaders[self.index].radiance(hit, &Counting { around, by: self })
     }
 }
 
@@ -115,9 +116,11 @@ impl Surroundings for Counting<'_> {
 fn counted(text: &str, set: &[(&str, &str)]) -> (Pipeline, Arc<Mutex<Missing>>) {
     let (_, mut pipeline) = pipeline(text, SIZE, set);
     let (limits, missing) = (pipeline.limits, Arc::new(Mutex::new(Missing::default())));
-    let wrap =
-        |shade| -> Box<dyn Shade> { Box::new(Counted { shade, limits, missing: Arc::clone(&missing) }) };
-    pipeline.shade = std::mem::take(&mut pipeline.shade).into_iter().map(wrap).collect();
+    let shaders = Arc::clone(&pipeline.shade);
+    let wrap = |index| -> Box<dyn Shade> {
+        Box::new(Counted { shaders: Arc::clone(&shaders), index, limits, missing: Arc::clone(&missing) })
+    };
+    pipeline.shade = (0..shaders.len()).map(wrap).collect();
     (pipeline, missing)
 }
 

@@ -263,9 +263,6 @@ fn columns(face: &Face, side: usize, [low, high]: [f64; 2]) -> Option<[usize; 2]
     let at = |slope: f64| (slope * face.distance + face.half[side]) * scale - 0.5;
     let first = (at(low) - SLACK).max(0.0);
     let last = (at(high) + SLACK).min(count - 1.0);
-    if !(first <= last) {
-        return None;
-    }
-    let [first, last] = [ceiling(first), last as usize];
-    (first <= last).then_some([first, last])
+    // Also none where something is not a number.
+    (first <= last).then(|| [ceiling(first), last as usize]).filter(|[first, last]| first <= last)
 }
