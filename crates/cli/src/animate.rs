@@ -83,7 +83,12 @@ pub(crate) fn run(args: &Animate, json: bool) -> Result<(), Error> {
         let frame = if !args.overwrite && job.files.iter().all(|file| exists(file)) {
             job.skipped()
         } else {
-            job.make(args, &mut studio, &monitor, &mut warnings).map_err(stopped)?
+            let made = job.make(args, &mut studio, &monitor, &mut warnings);
+            // What is known so far is right, whatever has ended the run; its own error counts for more than another's.
+            if let (Err(_), Some(path)) = (&made, &args.maps) {
+                let _ = map_file::write(path, studio.maps());
+            }
+            made.map_err(stopped)?
         };
         let done = match &frame.site {
             Some(site) => format!("{:.3} s; {site}", frame.seconds),

@@ -12,7 +12,7 @@ use crate::shadows::Shadows;
 fn night(model: &str) -> f64 {
     match model {
         "physical" => -20.2,
-        "thesis" => -11.1,
+        "thesis" | "repaired" => -11.1,
         _ => -18.0,
     }
 }
@@ -36,14 +36,16 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
     let night = altitude <= night(model);
     let what = match model {
         _ if formula => "by Nagata's formula it gives no light: it is black",
-        "thesis" if night => "nothing lights the air: the sky is black, whatever its illuminance",
+        "thesis" | "repaired" if night => {
+            "nothing lights the air: the sky is black, whatever its illuminance"
+        }
         // Scattering knows where the sun is.
-        "physical" | "thesis" if stated => {
+        "physical" | "thesis" | "repaired" if stated => {
             "it is as bright as stated, spread and coloured as the last of twilight"
         }
         "physical" if night => "next to nothing lights the air: the sky is black",
         "physical" => return None,
-        "thesis" => {
+        "thesis" | "repaired" => {
             "light is scattered once only, in air up to 30 km: too dark a twilight, and next to none from 6° on"
         }
         _ if stated => "it is as bright as stated, spread as with the sun on the horizon",
@@ -53,7 +55,7 @@ fn low_sun(scene: &Scene, settings: &Settings) -> Option<String> {
         }
     };
     Some(format!(
-        "the sun is {:.2}° below the horizon, and the sky {model} is one of the day: {what}",
+        "the sun is {:.2}° below the horizon, and the model {model} describes a sky of the day: {what}",
         -altitude
     ))
 }

@@ -30,6 +30,8 @@ pub enum Domain {
     Integer(u32, u32),
     /// A number, ends included.
     Number(f64, f64),
+    /// The model's own value (`own`), or a number, ends included.
+    OwnOr(f64, f64),
 }
 
 impl fmt::Display for Domain {
@@ -38,6 +40,7 @@ impl fmt::Display for Domain {
             Self::Choice(names) => f.write_str(&names.join(" | ")),
             Self::Integer(low, high) => write!(f, "a whole number from {low} to {high}"),
             Self::Number(low, high) => write!(f, "a number from {low} to {high}"),
+            Self::OwnOr(low, high) => write!(f, "own, or a number from {low} to {high}"),
         }
     }
 }
@@ -57,9 +60,9 @@ pub struct Knob {
 
 /// What `sky.model` may be: the scene's, a sky by name, or none.
 const SKIES: &[&str] = &[
-    "scene", "clear", "overcast", "uniform", "physical", "thesis", "perez", "cie-1", "cie-2", "cie-3",
-    "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11", "cie-12", "cie-13", "cie-14",
-    "cie-15", "measured", "none",
+    "scene", "clear", "overcast", "uniform", "physical", "thesis", "repaired", "perez", "cie-1", "cie-2",
+    "cie-3", "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11", "cie-12", "cie-13",
+    "cie-14", "cie-15", "measured", "none",
 ];
 
 /// All knobs. The costs are those of `docs/measurements`.
@@ -155,6 +158,18 @@ pub const KNOBS: &[Knob] = &[
         doc: "share of clear air's colour in a measured sky, whose table has none: 0 = daylight D65 (clouds), 1 = as blue as clear air in every direction; 0.2 s more to begin with",
     },
     Knob {
+        name: "sky.turbidity",
+        domain: Domain::OwnOr(0.0, 1.0),
+        presets: ["own"; 3],
+        doc: "Ångström's β, the haze that sun and physical skies pass: 0.05 very clear, 0.1 clear, 0.2 hazy; own = the model's (physical 0.06, thesis 0.09)",
+    },
+    Knob {
+        name: "sky.ozone",
+        domain: Domain::OwnOr(0.0, 600.0),
+        presets: ["own"; 3],
+        doc: "ozone above the ground [DU]; own = the model's (physical 230, thesis 0)",
+    },
+    Knob {
         name: "sky.visibility",
         domain: Domain::Choice(&["auto", "rays", "patches", "cuboid", "bands"]),
         presets: ["auto"; 3],
@@ -162,9 +177,9 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "sky.patches",
-        domain: Domain::Integer(1, 200),
+        domain: Domain::Integer(1, 60),
         presets: ["7", "10", "28"],
-        doc: "rows of patches from horizon to zenith; 7, 10, 14 are 125, 255, 500 patches, as many rays, and leave an RMSE of 1.3, 0.7, 0.46 % in the embedded scene (64 rays: 0.8 %); time grows with the square",
+        doc: "rows of patches from horizon to zenith; 7, 10, 14 are 125, 255, 500 patches, as many rays, and leave an RMSE of 1.3, 0.7, 0.46 % in the embedded scene (64 rays: 0.8 %); time grows with the square, and so does memory with maps: 10, 28, 60 rows take 0.14, 0.35, 1.3 KB a point",
     },
     Knob {
         name: "sky.elements",
@@ -206,7 +221,7 @@ pub const KNOBS: &[Knob] = &[
         name: "sky.map.tolerance",
         domain: Domain::Number(0.0001, 1.0),
         presets: ["0.05", "0.02", "0.005"],
-        doc: "the map is refined where interpolation is off by more than this share of an open place's light; below the noise of rays everything is",
+        doc: "the map is refined where interpolation is off by more than this share of an open place's light; below the noise of rays everything is refined",
     },
     Knob {
         name: "sky.rays",
@@ -330,6 +345,11 @@ impl Settings {
     pub fn number(&self, name: &str) -> f64 {
         self.choice(name).parse().unwrap_or(0.0)
     }
+
+    /// The value of a knob that is `own` or a number; none for `own`.
+    pub fn own_or(&self, name: &str) -> Option<f64> {
+        self.choice(name).parse().ok()
+    }
 }
 
 impl Knob {
@@ -338,6 +358,8 @@ impl Knob {
             Domain::Choice(names) => names.contains(&value),
             Domain::Integer(low, high) => value.parse().is_ok_and(|v: u32| (low..=high).contains(&v)),
             Domain::Number(low, high) => value.parse().is_ok_and(|v: f64| (low..=high).contains(&v)),
+            Domain::OwnOr(..) if value == "own" => true,
+            Domain::OwnOr(low, high) => value.parse().is_ok_and(|v: f64| (low..=high).contains(&v)),
         }
     }
 }

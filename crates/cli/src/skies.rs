@@ -99,7 +99,9 @@ fn check(args: &Sky, json: bool) -> Result<Destination, Error> {
             usage("--table -: stdout holds either the table or the JSON; name a file for the table")
         }
         Some(path) if is_stdout(path) => Ok(Destination::Stdout),
-        Some(path) if args.output.contains(path) => usage("--table: the file is one of -o"),
+        Some(path) if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) => {
+            usage("--table: a table's name ends in .csv; - writes it to stdout")
+        }
         Some(path) => Ok(Destination::File(Target::new(path)?)),
     }
 }

@@ -116,10 +116,14 @@ fn maps_change_no_picture_and_serve_the_next_run() {
     let (second, again) = morning(&folder, "--maps sky.maps");
     assert!(again == without, "{}", said(&second));
     // The file has the map of ten o'clock, and what all points see of the sky.
-    assert!(said(&second).contains("of another sky; what") && said(&second).contains("is taken over"));
+    assert!(said(&second).contains("of another sky; what") && said(&second).contains("is used again"));
     assert!(fs::read(folder.join("sky.maps")).unwrap() == kept);
-    let (last, _) = morning(&folder, "--maps sky.maps --frames 3");
-    assert!(said(&last).contains("sides of faces taken over"), "{}", said(&last));
+    fs::remove_file(folder.join("m3.exr")).unwrap();
+    let (last, third) = morning(&folder, "--maps sky.maps --frames 3");
+    assert!(said(&last).contains("mapped sides of faces are used again"), "{}", said(&last));
+    assert!(third[2] == without[2], "recalled values are those that were kept");
+    let (clash, _) = morning(&folder, "--maps m1.exr");
+    assert_eq!(clash.status.code(), Some(2), "{}", said(&clash));
     // Another scene.
     fs::write(folder.join("walk.toml"), WALK.replace("[2, 2, 2]", "[2, 3, 2]")).unwrap();
     let (other, _) = morning(&folder, "--maps sky.maps");

@@ -87,6 +87,11 @@ impl Texture {
         (Vec3::new(r, g, b) / a, a)
     }
 
+    /// What lies beyond its edges, along u and v.
+    pub fn wrap(&self) -> [Wrap; 2] {
+        self.wrap
+    }
+
     /// Alpha of each texel as a share of 65535, row by row.
     pub fn alphas(&self) -> impl Iterator<Item = u16> {
         self.levels[0].texels.iter().map(|texel| texel[3])

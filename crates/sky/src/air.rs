@@ -69,6 +69,8 @@ impl Air {
         ground_albedo: 0.0,
         multiple: false,
     };
+    /// The thesis' air with a haze that absorbs nothing and whose phase function makes its claim of 20 % true.
+    pub const REPAIRED: Self = Self { aerosol_albedo: 1.0, aerosol_phase: Lobes::REPAIRED, ..Self::THESIS };
 }
 
 /// How light of the bands fares in [`Air`].

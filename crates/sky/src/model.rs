@@ -28,6 +28,8 @@ pub enum Model {
     Physical,
     /// The thesis' own: single scattering in [`Air::THESIS`].
     Thesis,
+    /// The same with the repaired haze: [`Air::REPAIRED`].
+    Repaired,
 }
 
 /// Names of the fifteen general skies.
@@ -50,8 +52,10 @@ pub struct Conditions {
     pub scale: Scale,
     /// Height of the observer above the sea \[m\], 0 to 50 000.
     pub elevation_m: f64,
-    /// Ångström's β of the air of physical skies; none = the air's own.
+    /// Ångström's β of the air of skies with a colour of air; none = the air's own.
     pub turbidity: Option<f64>,
+    /// Column of ozone \[atm-cm\] of that air; none = the air's own.
+    pub ozone: Option<f64>,
     /// Reflectance of the ground that lights the air of [`Model::Physical`] from below; none = the air's own.
     pub ground_albedo: Option<f64>,
     /// The state of the weather that [`Model::Perez`] shows; none = a clear day by Bouguer and Nagata with a
@@ -67,6 +71,7 @@ impl Conditions {
             scale: Scale::Own,
             elevation_m: 0.0,
             turbidity: None,
+            ozone: None,
             ground_albedo: None,
             weather: None,
         }
@@ -82,6 +87,7 @@ impl Conditions {
     fn in_air(&self, air: Air) -> AirSky {
         let air = Air {
             turbidity: self.turbidity.unwrap_or(air.turbidity),
+            ozone: self.ozone.unwrap_or(air.ozone),
             ground_albedo: self.ground_albedo.unwrap_or(air.ground_albedo),
             ..air
         };
@@ -102,9 +108,17 @@ impl Conditions {
 impl Model {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        [Self::Clear, Self::Overcast, Self::Uniform, Self::Physical, Self::Thesis, Self::Perez]
-            .into_iter()
-            .chain((1..=15).map(Self::Cie))
+        [
+            Self::Clear,
+            Self::Overcast,
+            Self::Uniform,
+            Self::Physical,
+            Self::Thesis,
+            Self::Repaired,
+            Self::Perez,
+        ]
+        .into_iter()
+        .chain((1..=15).map(Self::Cie))
     }
 
     /// Its name in scene files.
@@ -116,6 +130,7 @@ impl Model {
             Self::Perez => "perez",
             Self::Physical => "physical",
             Self::Thesis => "thesis",
+            Self::Repaired => "repaired",
             Self::Cie(number) => GENERAL[number.clamp(1, GENERAL.len()) - 1],
         }
     }
@@ -172,6 +187,7 @@ impl Model {
         match self {
             Self::Physical => Some(Air::CLEAR),
             Self::Thesis => Some(Air::THESIS),
+            Self::Repaired => Some(Air::REPAIRED),
             _ => None,
         }
     }

@@ -192,7 +192,8 @@ impl Facing<'_> {
     /// inverse of its density, on one scale for all. None where rounding has met a cell without light.
     ///
     /// The radiance is that in the middle of a part 0.9° × 1.4° wide: to ask the sky itself for each of many directions took
-    /// longer than their rays, and what it would change lies below the noise of 10⁵ directions (1e-4 of an open place's light).
+    /// longer than their rays. Radiance changes by some per cent within a part, of which the few that an edge crosses are all
+    /// that counts.
     ///
     /// First the azimuth, of sky and ground together, then the altitude: upright edges of what hides them are
     /// straight lines on the square, of which evenly spread points miss one at most.

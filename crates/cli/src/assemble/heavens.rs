@@ -92,6 +92,8 @@ pub(super) fn conditions(scene: &Scene, settings: &Settings) -> Conditions {
             None => stated.map_or(Scale::Own, |lux| Scale::Horizontal(lux as f32)),
         },
         elevation_m: scene.site.elevation,
+        turbidity: settings.own_or("sky.turbidity"),
+        ozone: settings.own_or("sky.ozone").map(|dobson| dobson / 1000.0),
         weather: sun.as_ref().and_then(|sun| weather(scene, sun)),
         ..Conditions::new(sun.map_or(Vec3::Y, |sun| sun.toward.as_vec3()))
     }
@@ -162,7 +164,7 @@ pub(super) fn observed_sun(scene: &Scene, sun: &scene::Sun) -> Option<f32> {
 /// Water vapour above the ground where nothing is known of it \[cm\]: it changes luminous efficacies by some per cent.
 const PRECIPITABLE_WATER: f64 = 2.0;
 
-/// How much of the sky a place sees: the cuboid, bands, or rays.
+/// How much of the sky a place sees: by the cuboid, bands, patches, or rays.
 fn seen(
     scene: &Scene,
     settings: &Settings,
@@ -201,7 +203,7 @@ fn mapped(scene: &Scene, settings: &Settings, seen: Arc<dyn WholeSky>, maps: &mu
 fn hiding(scene: &Scene, settings: &Settings) -> String {
     let media: Vec<_> = scene.materials.iter().map(scene::Material::medium).collect();
     let stages = ["shadows", "sky.patches", "sky.ground"].map(|name| settings.choice(name));
-    format!("{:?}{:?}{:?}{stages:?}", scene.solids, media, scene.geometry.bounds())
+    format!("{:?}{media:?}{stages:?}", scene.solids)
 }
 
 /// The sky's light, likewise. More may be in it than matters: then something is found anew in vain.
@@ -235,4 +237,56 @@ fn ground_height(geometry: &Geometry) -> Option<f32> {
         sum >= tenth
     });
     ground.map(|(height, _)| (height + 1e-3 * (high.y - low.y)) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::knobs::Preset;
+
+    const SCENE: &str = "[site]\nlatitude = 35\nlongitude = 139\ntime = 2026-06-21T10:00:00+09:00\n\
+        [sky]\nmodel = 'clear'\n[[material]]\nname = 'glass'\ntransmission = 0.9\n\
+        [[solid]]\nsphere = { radius = 1.0 }\nmaterial = 'glass'\n";
+
+    /// What hides the sky, and its light, in words.
+    fn words(text: &str, set: &[(&str, &str)]) -> [String; 2] {
+        let scene = scene::parse(text, Path::new(""), Path::new("a.toml")).unwrap();
+        let mut settings = Settings::preset(Preset::Normal);
+        for (name, value) in &scene.settings {
+            settings.set(name, value, "the scene").unwrap();
+        }
+        for (name, value) in set {
+            settings.set(name, value, "--set").unwrap();
+        }
+        [hiding(&scene, &settings), light_of_the_sky(&scene, &settings)]
+    }
+
+    #[test]
+    fn maps_are_told_apart_by_all_that_changes_their_light() {
+        let [hiding, light] = words(SCENE, &[]);
+        for (from, to) in [("radius = 1.0", "radius = 1.5"), ("transmission = 0.9", "transmission = 0.8")] {
+            assert_ne!(words(&SCENE.replace(from, to), &[])[0], hiding, "{to}");
+        }
+        for knob in [("shadows", "off"), ("sky.patches", "12"), ("sky.ground", "hidden")] {
+            assert_ne!(words(SCENE, &[knob])[0], hiding, "{knob:?}");
+        }
+        for (from, to) in [
+            ("'clear'", "'overcast'"),
+            ("T10:00", "T11:00"),
+            ("'clear'", "'clear'\nilluminance = 5000"),
+            ("'clear'", "'clear'\nscale = 'nagata'"),
+            ("latitude = 35", "latitude = 36"),
+            ("[sky]", "elevation = 900\n[sky]"),
+            ("[sky]", "[sun]\nilluminance = 9000\n[sky]"),
+        ] {
+            assert_ne!(words(&SCENE.replace(from, to), &[])[1], light, "{to}");
+        }
+        for knob in
+            [("sky.albedo", "0.5"), ("sky.turbidity", "0.2"), ("sky.visibility", "rays"), ("sky.rays", "9")]
+        {
+            assert_ne!(words(SCENE, &[knob])[1], light, "{knob:?}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use light::{AreaLight, AreaShape, Bodies, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
-use sky::{Sun, atmosphere};
+use sky::{Air, Sun, atmosphere};
 
 use super::heavens::{self, SKY};
 use super::maps::Maps;
@@ -84,7 +84,12 @@ fn colour(spectrum: &LightSpectrum) -> Spectrum {
 /// The sun's beam facing it \[W m⁻² nm⁻¹\]: by Bouguer's formula if that is asked for, as stated, or what clear air lets
 /// through.
 pub(super) fn beam(scene: &Scene, settings: &Settings, sun: &scene::Sun) -> Spectrum {
-    let own = atmosphere::direct_beam(sun.altitude, scene.site.elevation, atmosphere::CLEAR_TURBIDITY);
+    let air = Air {
+        turbidity: settings.own_or("sky.turbidity").unwrap_or(Air::CLEAR.turbidity),
+        ozone: settings.own_or("sky.ozone").map_or(Air::CLEAR.ozone, |dobson| dobson / 1000.0),
+        ..Air::CLEAR
+    };
+    let own = atmosphere::beam(&air, sun.altitude, scene.site.elevation);
     let coloured = match &sun.spectrum {
         Some(spectrum) => colour(spectrum).of_luminance(own.luminance()),
         None => own,

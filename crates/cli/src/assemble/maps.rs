@@ -75,10 +75,6 @@ impl Maps {
         if let Some([values, sights]) = self.file.take() {
             self.said = Some(self.take_over(&mut map, &values, &sights));
         }
-        if let Some(last) = self.mapped.take().filter(|last| last.key() == map.key()) {
-            self.mapped = Some(Arc::clone(&last));
-            return last;
-        }
         let known = self.sights.take().filter(|sights| sights.belong_to(map.key()));
         let sights = known.unwrap_or_else(|| Arc::new(Sights::new(map.key())));
         let map = Arc::new(map.with_sights(Arc::clone(&sights)));
@@ -88,17 +84,21 @@ impl Maps {
 
     /// Takes over what fits, and says so.
     fn take_over(&mut self, map: &mut Mapped, values: &[u8], sights: &[u8]) -> String {
-        if !sights.is_empty() {
-            self.sights = Sights::from_bytes(map.key(), sights).ok().map(Arc::new);
-        }
-        let sights = self.sights.as_ref().map_or(0, |sights| sights.count());
-        let and = match sights {
-            0 => String::new(),
-            count => format!("; what {count} points see of the sky is taken over"),
+        let sights = match sights {
+            [] => None,
+            bytes => Some(Sights::from_bytes(map.key(), bytes)),
         };
-        match map.recall(values) {
-            Ok(faces) => format!("{faces} sides of faces taken over{and}"),
-            Err(fault) => format!("made anew: {fault}{and}"),
-        }
+        let faces = map.recall(values);
+        let said = match (&faces, &sights) {
+            (Ok(faces), _) => format!("{faces} mapped sides of faces are used again"),
+            (Err(fault), Some(Ok(sights))) => {
+                format!("{fault}; what {} points see of the sky is used again", sights.count())
+            }
+            (Err(fault), None) => format!("made anew: {fault}"),
+            (Err(fault), Some(Err(other))) if fault == other => format!("made anew: {fault}"),
+            (Err(fault), Some(Err(other))) => format!("made anew: {fault}; {other}"),
+        };
+        self.sights = sights.and_then(Result::ok).map(Arc::new);
+        said
     }
 }

@@ -66,7 +66,11 @@ fn traits(plan: &Plan, scene: &Scene, asked: &Asked) -> Vec<(&'static str, f64)>
             traits.extend([("clearness ε", perez.clearness()), ("brightness Δ", perez.brightness())]);
         }
         Asked::Named(model) => {
-            traits.extend(model.air().map(|air| ("turbidity β (Ångström)", air.turbidity)));
+            if let Some(air) = model.air() {
+                let turbidity = settings.own_or("sky.turbidity").unwrap_or(air.turbidity);
+                let ozone = settings.own_or("sky.ozone").unwrap_or(1000.0 * air.ozone);
+                traits.extend([("turbidity β (Ångström)", turbidity), ("ozone [DU]", ozone)]);
+            }
         }
         Asked::Measured(_) => traits.push(("share of clear air's colour", settings.number("sky.clear"))),
     }

@@ -107,7 +107,12 @@ impl Report {
                 traits: sky.traits.iter().copied().collect(),
             },
             global_lux: sky.diffuse.luminance() + sky.sun_horizontal.luminance(),
-            warnings: plan.warnings.clone(),
+            warnings: scene
+                .warnings
+                .iter()
+                .map(|w| format!("{}: {}", w.place, w.what))
+                .chain(plan.warnings.clone())
+                .collect(),
             exposure: None,
             written: Vec::new(),
         }

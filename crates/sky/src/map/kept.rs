@@ -18,7 +18,8 @@ use super::key::{Fnv, Key};
 use super::tree::{FaceMap, LEAF, Node, uncut};
 
 const MAGIC: &[u8; 8] = b"keikanIM";
-const VERSION: u32 = 1;
+/// To be raised with everything that changes where points are, what is asked for them, or which patches there are.
+pub(crate) const VERSION: u32 = 2;
 
 /// Why kept maps cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

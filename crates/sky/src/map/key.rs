@@ -3,6 +3,7 @@
 use light::{Geometry, Mesh};
 
 use super::Settings;
+use super::kept::VERSION;
 
 /// FNV-1a of 128 bits: two contents that differ by chance have one number with a likelihood of 2⁻¹²⁸ (nobody who
 /// wants them to is kept out).
@@ -65,6 +66,7 @@ impl Key {
     pub(crate) fn new(geometry: &Geometry, settings: &Settings, described: &Described) -> Self {
         let mut places = Fnv::new();
         let Settings { coarse, least, tolerance, inset, seed } = *settings;
+        places.bytes(&VERSION.to_le_bytes());
         places.vectors([[coarse, least, tolerance, inset]].into_iter());
         places.bytes(&seed.to_le_bytes());
         places.list(geometry.meshes.iter().map(|mesh| mesh_number(mesh).to_le_bytes()));
@@ -89,6 +91,8 @@ fn mesh_number(mesh: &Mesh) -> u128 {
         fnv.vectors([[opacity.factor, opacity.cutoff.unwrap_or(-1.0)]].into_iter());
         let [width, height] = opacity.texture.as_ref().map_or([0; 2], |texture| texture.size());
         fnv.bytes(&width.to_le_bytes()).bytes(&height.to_le_bytes());
+        let wrap = opacity.texture.as_ref().map(|texture| texture.wrap());
+        fnv.bytes(format!("{wrap:?}").as_bytes());
         for alpha in opacity.texture.iter().flat_map(|texture| texture.alphas()) {
             fnv.bytes(&alpha.to_le_bytes());
         }

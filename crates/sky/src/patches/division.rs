@@ -21,9 +21,9 @@ pub(crate) struct Patch {
     /// Where it is asked for: anywhere in it, by its number, so that no straight edge meets many of them at once.
     pub(crate) direction: Vec3,
     /// sin of the altitude at the lower edge and at the upper.
-    heights: [f32; 2],
+    pub(crate) heights: [f32; 2],
     /// Azimuth, from +X towards +Z, at both sides \[rad\].
-    azimuths: [f32; 2],
+    pub(crate) azimuths: [f32; 2],
 }
 
 /// Parts of the golden ratio's square and of its like in two dimensions (the plastic number's): multiples of both are spread evenly

@@ -15,7 +15,7 @@ use division::Division;
 pub use sight::Sight;
 
 /// Rows of patches from the horizon to the zenith; what they leave is at [`PatchSky`].
-pub const PATCH_ROWS: u32 = 14;
+pub const PATCH_ROWS: u32 = 10;
 
 /// The light of sky and ground, seen by patches that stand still while the sun moves (daylight coefficients; Tregenza and
 /// Waters 1983, patches after Reinhart's finer division).
@@ -29,7 +29,8 @@ pub const PATCH_ROWS: u32 = 14;
 /// not be found again ([`PatchSky::through`]). Nothing is random: the place's seed does not matter.
 ///
 /// *Where it is wrong.* A patch is there or not, as far as one direction tells; L_i is its mean. R rows are some 8 R²/π patches of sky
-/// (R = 14: 500), and as many directions asked; what this leaves beside [`crate::Dome`] the bench `cuboid` lists.
+/// and a fourth of that of ground, and as many directions asked. In a town under an overcast sky 7, 10 and 28 rows leave 0.88, 0.51 and 0.11 grey levels of 255 (root mean
+/// square; [`crate::Dome`] with 64, 256 and 1024 directions 0.73, 0.26 and 0.10), under a clear one 0.64, 0.33 and 0.09 (0.41, 0.15, 0.06).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -93,7 +94,8 @@ impl PatchSky {
         }
         for &(i, transmittance) in sight.partly() {
             let i = i as usize;
-            let cosine = self.division.patches()[i].direction.dot(normal).max(0.0);
+            let Some(patch) = self.division.patches().get(i) else { break };
+            let cosine = patch.direction.dot(normal).max(0.0);
             seen[usize::from(!self.division.is_sky(i))] += self.power[i] * transmittance * cosine;
         }
         // Rounding of the two sums must not let more through than there is.
