@@ -14,3 +14,4 @@ mod night;
 mod open_sky;
 mod photometry;
 mod table_2_1;
+mod water;

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use glam::DVec2;
 use light::{
     Arrival, Film, Hit, Illuminate, Known, Layer, Nearest, Occlude, Path, Piece, Place, PointSource,
-    Projection, Ray, See, Shade, Spectrum, Surroundings, Vacuum, View,
+    Projection, Ray, See, Shade, Spectrum, Surroundings, Traverse, Vacuum, View, Way,
 };
 use rayon::prelude::*;
 
@@ -58,6 +58,8 @@ pub struct Pipeline {
     pub sources: Arc<[Source]>,
     /// What stands in light's way.
     pub occlude: Arc<dyn Occlude>,
+    /// What fills the space between things; empty = clear air.
+    pub between: Vec<Arc<dyn Traverse>>,
     /// When to stop.
     pub limits: Limits,
 }
@@ -171,7 +173,7 @@ impl Pipeline {
             let column = (piece.column - first) as usize;
             let radiance = |piece: &Piece| {
                 let around = Around { known: piece.known, ..*around };
-                around.leaves(&self.seen(&piece.hit)) * piece.share
+                around.eye_sees(&self.seen(&piece.hit)) * piece.share
             };
             line[column] += looks.sum(group, self.limits.alike, radiance);
             covered[column] += group.iter().map(|piece| piece.share).sum::<f32>();
@@ -181,7 +183,8 @@ impl Pipeline {
             let open = 1.0 - covered;
             if open > 1e-5 {
                 let at = DVec2::new(f64::from(first) + column as f64 + 0.5, f64::from(row) + 0.5);
-                *pixel += around.background(&self.view.ray(at), Path::EYE) * open;
+                let ray = self.view.ray(at);
+                *pixel += around.way(&ray, Path::EYE).bring(around.background(&ray, Path::EYE)) * open;
             }
         }
     }
@@ -247,6 +250,25 @@ impl Around<'_> {
         }
     }
 
+    /// What of a hit's light reaches the eye.
+    fn eye_sees(&self, hit: &Hit) -> Spectrum {
+        let leaves = self.leaves(hit);
+        if self.pipeline.between.is_empty() {
+            return leaves;
+        }
+        let (toward, length) = (hit.toward_eye, hit.distance);
+        let ray = Ray { origin: hit.place.position + toward * length, direction: -toward, length };
+        self.way(&ray, hit.path).bring(leaves)
+    }
+
+    /// What light loses and gains along a ray: where it passes several things that fill the space, nearly clear each, in any
+    /// order; they do not overlap.
+    fn way(&self, ray: &Ray, path: Path) -> Way {
+        let around = Self { known: Known::default(), face: [u32::MAX; 2], ..*self };
+        let ways = self.pipeline.between.iter().map(|fill| fill.way(ray, path, &around));
+        ways.fold(Way::CLEAR, Way::then)
+    }
+
     /// What is behind everything: for the eye all sources, for mirrored rays only those without highlights.
     fn background(&self, ray: &Ray, path: Path) -> Spectrum {
         let sources = self.sources.iter().map(|&i| &self.pipeline.sources[i]);
@@ -271,9 +293,14 @@ impl Surroundings for Around<'_> {
         if path.depth > self.pipeline.limits.depth || path.share < self.pipeline.limits.share {
             return Spectrum::ZERO;
         }
-        match self.pipeline.nearest.nearest(ray) {
-            Some(hit) => Around { known: Known::default(), ..*self }.leaves(&hit.on(path)),
-            None => self.background(ray, path),
+        let hit = self.pipeline.nearest.nearest(ray);
+        let way = |length: f32| self.way(&Ray { length: ray.length.min(length), ..*ray }, path);
+        match hit {
+            Some(hit) => {
+                let leaves = Around { known: Known::default(), ..*self }.leaves(&hit.on(path));
+                way(hit.distance).bring(leaves)
+            }
+            None => way(f32::INFINITY).bring(self.background(ray, path)),
         }
     }
 }

@@ -290,9 +290,12 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
         Rule::Volumes => stage("occlude", &format!("volumes ({faces})"), shadows.to_string()),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
-    for (what, chapter) in [("water", "no [[water]]"), ("trees", "no [[tree]]")] {
-        stages.push(stage("all three", "", format!("no {what}: the scene has {chapter}")));
-    }
+    stages.push(match scene.waters.len() {
+        0 => stage("all three", "", "no water: the scene has no [[water]]".to_owned()),
+        1 => stage("all three", "flat water", "1 in the scene".to_owned()),
+        n => stage("all three", "flat water", format!("{n} in the scene")),
+    });
+    stages.push(stage("all three", "", "no trees: the scene has no [[tree]]".to_owned()));
     stages
 }
 

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(crate) use placed::{
-    ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable,
+    ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable, WaterTable,
 };
 pub(crate) use seen::{
     CameraTable, Ease, GridTable, KeyTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable,
@@ -49,8 +49,8 @@ pub(crate) struct SceneFile {
     pub(crate) settings: BTreeMap<String, Setting>,
     /// Curved solids, convex polyhedra and set operations of them.
     pub(crate) solid: Vec<SolidTable>,
-    /// Reserved for water; ignored with a warning.
-    pub(crate) water: Vec<ReservedTable>,
+    /// Bodies of water, by their surface.
+    pub(crate) water: Vec<WaterTable>,
     /// Reserved for trees; ignored with a warning.
     pub(crate) tree: Vec<ReservedTable>,
 }

@@ -19,6 +19,7 @@ mod recentre;
 mod settings;
 mod site;
 mod solids;
+mod waters;
 
 use std::path::Path;
 
@@ -130,6 +131,9 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
         models::add(draft, &mut library, &root.key("model").index(i), table, &names)?;
     }
     solids::add(draft, root, &file.solid, &names)?;
+    for (i, table) in file.water.iter().enumerate() {
+        draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table)?);
+    }
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {
         let sensor = eyes::sensor(&root.key("sensor").index(i), i + 1, table, left)?;
@@ -141,11 +145,9 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
 
 /// Tables of later versions are named, not silently dropped.
 fn reserved(root: &Spot<'_>, file: &SceneFile, warnings: &mut Vec<Warning>) {
-    for (name, tables) in [("water", &file.water), ("tree", &file.tree)] {
-        if !tables.is_empty() {
-            let what = format!("planned by a later version; ignored ({} tables)", tables.len());
-            warnings.push(root.key(name).index(0).warning(what));
-        }
+    if !file.tree.is_empty() {
+        let what = format!("planned by a later version; ignored ({} tables)", file.tree.len());
+        warnings.push(root.key("tree").index(0).warning(what));
     }
 }
 

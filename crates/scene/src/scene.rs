@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3, Vec3};
-use light::{Distribution, Geometry, Projection};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use light::{Distribution, Geometry, Mesh, Projection};
 
 use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Weather};
 
@@ -19,6 +19,8 @@ pub struct Scene {
     pub geometry: Arc<Geometry>,
     /// Curved solids and set operations that are seen.
     pub solids: Vec<Solid>,
+    /// Bodies of water.
+    pub waters: Vec<Water>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
     /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky` or `emission`.
@@ -56,6 +58,26 @@ pub struct Site {
     pub offset: jiff::tz::Offset,
     /// Degrees clockwise from −Z (seen from above) to true north; 0 = north is −Z.
     pub north: f64,
+}
+
+/// Water below a level surface, down to whatever its bottom is.
+#[derive(Clone, Debug)]
+pub struct Water {
+    /// Its name, or `water-3`.
+    pub name: String,
+    /// The surface about its own middle, at y = 0, seen from above.
+    pub surface: Mesh,
+    /// Where that middle is in the world \[m\]; nothing is turned.
+    pub place: DAffine3,
+    /// Index of refraction relative to air.
+    pub index: f64,
+}
+
+impl Water {
+    /// Height y of the surface in the world \[m\].
+    pub fn level(&self) -> f64 {
+        self.place.translation.y
+    }
 }
 
 /// A lamp.

@@ -9,6 +9,9 @@ use super::maps::Maps;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
 
+/// What the layer of the sun is called.
+pub(super) const SUN: &str = "sun";
+
 /// Sun, sky, luminaires and luminous areas, in this order; what the scene lacks is left out. `bodies` hide the sky, as
 /// meshes do; `maps` have what is known of its light.
 pub(super) fn sources(
@@ -44,9 +47,11 @@ pub(super) fn sources(
 /// The name of each of [`sources`] in their order, and whether it is a point that casts sharp shadows; no sky is
 /// built for it.
 pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
-    let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some()));
+    let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some() && scene.waters.is_empty()));
     let sky = heavens::asked(scene, settings).map(|_| (SKY.to_owned(), false));
-    let points = scene.lights.iter().map(|light| (light.name.clone(), true));
+    // Water bends what its lamps send.
+    let dry = scene.waters.is_empty();
+    let points = scene.lights.iter().map(|light| (light.name.clone(), dry));
     let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
     sun.into_iter().chain(sky).chain(points).chain(areas).collect()
 }
@@ -119,7 +124,7 @@ pub(super) fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     // One ray to the middle of the disc is a point's sharp shadow.
     let point = (light.samples == 1 || sun.diameter == 0.0).then_some(PointSource::Toward(sun.toward));
     (risen(sun) && !light.irradiance.is_zero()).then(|| Source {
-        name: "sun".to_owned(),
+        name: SUN.to_owned(),
         light: Box::new(light),
         beam: true,
         point,

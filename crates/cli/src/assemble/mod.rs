@@ -6,10 +6,11 @@ mod maps;
 mod materials;
 mod open_sky;
 mod solids;
+mod waters;
 
 use std::sync::Arc;
 
-use light::{Bodies, First, Nearest, Occlude, PointSource, Product, See, Shade, View};
+use light::{Bodies, First, Geometry, Nearest, Occlude, PointSource, Product, See, Shade, View};
 use raytrace::solid::{Acceleration, Solids};
 use raytrace::{BruteForce, Quality, Rays, Supersample, World};
 use scanline::{Knobs, Localised, Rule, Scanline, Shading};
@@ -19,6 +20,7 @@ use crate::Error;
 use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
+use waters::Waters;
 
 #[cfg(test)]
 pub(crate) use heavens::skies;
@@ -43,6 +45,7 @@ pub struct Standing {
     traced: Traced,
     occlude: Arc<Product>,
     shade: Arc<[Box<dyn Shade>]>,
+    waters: Option<Waters>,
 }
 
 impl Standing {
@@ -53,19 +56,29 @@ impl Standing {
     pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
         let (solids, more) = solids::bodies(scene)?
             .map_or((None, Vec::new()), |dressed| (Some(dressed.solids), dressed.shaders));
-        let traced = Traced::of(scene, plan, solids);
+        let waters = Waters::of(scene);
+        let seen = match waters {
+            Some(_) => Waters::seen(scene, (scene.materials.len() + more.len()) as u32),
+            None => Arc::clone(&scene.geometry),
+        };
+        let traced = Traced::of([&seen, &scene.geometry], plan, solids);
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
             _ => traced.occlude(),
         }));
-        let shade = scene.materials.iter().map(materials::shade).chain(more).collect();
-        Ok(Self { traced, occlude, shade })
+        let surfaces = waters.iter().flat_map(Waters::shaders);
+        let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
+        Ok(Self { traced, occlude, shade, waters })
     }
 
     /// The scene's sources; `maps` have what is known of the sky's light, and keep what becomes known.
     pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Arc<[Source]> {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
-        lights::sources(scene, &plan.settings, bodies, maps).into()
+        let sources = lights::sources(scene, &plan.settings, bodies, maps).into_iter();
+        match &self.waters {
+            Some(waters) => sources.map(|source| waters.lit(scene, source)).collect(),
+            None => sources.collect(),
+        }
     }
 
     /// All stages of one picture.
@@ -74,7 +87,7 @@ impl Standing {
     /// A camera that the scene does not have.
     pub fn pipeline(&self, plan: &Plan, scene: &Scene, sources: Arc<[Source]>) -> Result<Pipeline, Error> {
         let (settings, view) = (&plan.settings, view(plan, scene)?);
-        let (see, needed_rays) = see(plan, scene, view, &self.traced, (&sources, &self.occlude));
+        let (see, needed_rays) = see(plan, view, &self.traced, (&sources, &self.occlude));
         Ok(Pipeline {
             view,
             see,
@@ -83,6 +96,7 @@ impl Standing {
             shade: Arc::clone(&self.shade),
             sources,
             occlude: Arc::clone(&self.occlude) as Arc<dyn Occlude>,
+            between: self.waters.iter().map(Waters::fill).collect(),
             limits: Limits {
                 depth: settings.integer("ray-depth") as u8,
                 share: settings.number("ray-share") as f32,
@@ -95,7 +109,6 @@ impl Standing {
 /// Who finds what the eye sees, and how many pixels have needed a ray for it.
 fn see(
     plan: &Plan,
-    scene: &Scene,
     view: View,
     traced: &Traced,
     (sources, occlude): (&[Source], &Arc<Product>),
@@ -110,7 +123,7 @@ fn see(
         }
         ("rays", _) => (Box::new(Supersample::new(traced.nearest(), view, samples)), None),
         _ => {
-            let mut scanline = Scanline::new(Arc::clone(&scene.geometry), view, knobs(plan));
+            let mut scanline = Scanline::new(Arc::clone(&traced.seen), view, knobs(plan));
             if let Some(least) = plan.shadows.spans_from {
                 let occlude = Arc::clone(occlude) as Arc<dyn Occlude>;
                 scanline = scanline.with_shadows(points(sources), occlude).cut_from(least);
@@ -137,6 +150,8 @@ fn points(sources: &[Source]) -> Vec<(u32, PointSource)> {
 
 /// Who answers rays: the eye's and mirrors' (`nearest`), and those that ask for shadows (`occlude`).
 struct Traced {
+    /// What the eye's rays and scanlines meet.
+    seen: Arc<Geometry>,
     eye: Triangles,
     shadow: Triangles,
     solids: Option<[Arc<Solids>; 2]>,
@@ -151,24 +166,27 @@ enum Triangles {
 
 impl Traced {
     /// `accelerate` = none | view | bvh: the cases I and II, III and IV of the thesis' table 2.1.
-    fn of(scene: &Scene, plan: &Plan, solids: Option<Solids>) -> Self {
-        let every = || Triangles::Every(Arc::new(BruteForce::new(Arc::clone(&scene.geometry))));
+    ///
+    /// `seen` is what the eye meets, `hiding` what stands in light's way: less, where there is water.
+    fn of([seen, hiding]: [&Arc<Geometry>; 2], plan: &Plan, solids: Option<Solids>) -> Self {
+        let every = |geometry| Triangles::Every(Arc::new(BruteForce::new(Arc::clone(geometry))));
         let quality = match plan.settings.choice("bvh-quality") {
             "fast" => Quality::Fast,
             "best" => Quality::Best,
             _ => Quality::Medium,
         };
-        let bvh = || Triangles::Bvh(Arc::new(World::build(Arc::clone(&scene.geometry), quality)));
+        let bvh = |geometry| Triangles::Bvh(Arc::new(World::build(Arc::clone(geometry), quality)));
         let (eye, shadow, boxes) = match plan.settings.choice("accelerate") {
-            "none" => (every(), every(), [Acceleration::None; 2]),
-            "view" => (bvh(), every(), [Acceleration::Boxes, Acceleration::None]),
+            "none" => (every(seen), every(hiding), [Acceleration::None; 2]),
+            "view" => (bvh(seen), every(hiding), [Acceleration::Boxes, Acceleration::None]),
             _ => {
-                let both = bvh();
-                (both.clone(), both, [Acceleration::Boxes; 2])
+                let eye = bvh(seen);
+                let shadow = if Arc::ptr_eq(seen, hiding) { eye.clone() } else { bvh(hiding) };
+                (eye, shadow, [Acceleration::Boxes; 2])
             }
         };
         let solids = solids.map(|solids| boxes.map(|boxes| Arc::new(solids.clone().with(boxes))));
-        Self { eye, shadow, solids }
+        Self { seen: Arc::clone(seen), eye, shadow, solids }
     }
 
     fn nearest(&self) -> Arc<dyn Nearest> {

@@ -25,7 +25,8 @@ pub(super) fn bodies(scene: &Scene) -> Result<Option<Dressed>, Error> {
     }
     let wardrobe = Wardrobe::of(scene);
     let bodies = scene.solids.iter().map(|solid| wardrobe.body(solid)).collect();
-    let first = scene.geometry.instances.len() as u32;
+    // After the faces of the scene and the surfaces of its waters.
+    let first = (scene.geometry.instances.len() + scene.waters.len()) as u32;
     let solids = Solids::new(bodies, first).map_err(|fault| Error::Content(format!("[[solid]] {fault}")))?;
     let shader = |dress: &Dress| {
         let material = &scene.materials[dress.material as usize];

@@ -8,7 +8,9 @@ use light::{Geometry, Instance, Mesh};
 
 use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
-use crate::{AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning};
+use crate::{
+    AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning, Water,
+};
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
 /// 16384 is 0.98 mm.
@@ -20,6 +22,7 @@ pub(crate) struct Draft {
     pub(crate) site: Site,
     pub(crate) geometry: Geometry,
     pub(crate) solids: Vec<Solid>,
+    pub(crate) waters: Vec<Water>,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: Vec<Light>,
     pub(crate) area_lights: Vec<AreaLight>,
@@ -99,6 +102,7 @@ impl Draft {
         self.solids.iter_mut().for_each(|solid| {
             solid.node.placements_mut(&mut |placement| placement.translation -= origin);
         });
+        self.waters.iter_mut().for_each(|water| water.place.translation -= origin);
         self.lights.iter_mut().for_each(|light| light.position -= origin);
         self.area_lights.iter_mut().for_each(|light| light.position -= origin);
         self.cameras.iter_mut().for_each(|camera| camera.shift(-origin));
@@ -110,6 +114,7 @@ impl Draft {
             origin,
             geometry: Arc::new(self.geometry),
             solids: self.solids,
+            waters: self.waters,
             materials: self.materials,
             lights: self.lights,
             area_lights: self.area_lights,

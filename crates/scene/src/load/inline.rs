@@ -122,7 +122,11 @@ fn prism_of(corners: &[DVec3]) -> Inline {
     Inline::new(corners, caps.chain(walls).collect())
 }
 
-fn polygon_of(spot: &Spot<'_>, table: &PolygonTable, warnings: &mut Vec<Warning>) -> Result<Inline, Error> {
+pub(crate) fn polygon_of(
+    spot: &Spot<'_>,
+    table: &PolygonTable,
+    warnings: &mut Vec<Warning>,
+) -> Result<Inline, Error> {
     let outline = spot.key("points").points(&table.points)?;
     let holes = spot.key("holes");
     let holes: Vec<Vec<DVec3>> = table

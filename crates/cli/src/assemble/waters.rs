@@ -1,0 +1,56 @@
+//! Waters of the scene → their surfaces among what is seen, what fills them, and what their surfaces do to lights.
+
+use std::sync::Arc;
+
+use light::{Geometry, Instance, PointSource, Shade, Traverse};
+use scene::Scene;
+use water::flat::{Fill, FlatWater, Lit, Source as Kind, SurfaceShade};
+
+use super::heavens::SKY;
+use super::lights::SUN;
+use crate::pipeline::Source;
+
+/// All waters of a scene; none without any.
+pub(super) struct Waters(Arc<[FlatWater]>);
+
+impl Waters {
+    pub(super) fn of(scene: &Scene) -> Option<Self> {
+        let water = |water: &scene::Water| FlatWater::new(&water.surface, &water.place, water.index);
+        (!scene.waters.is_empty()).then(|| Self(scene.waters.iter().map(water).collect()))
+    }
+
+    /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
+    /// no light.
+    pub(super) fn seen(scene: &Scene, first: u32) -> Arc<Geometry> {
+        let mut geometry = Geometry::clone(&scene.geometry);
+        for (i, water) in scene.waters.iter().enumerate() {
+            let mesh = light::Mesh { material: first + i as u32, ..water.surface.clone() };
+            let index = geometry.meshes.len() as u32;
+            geometry.meshes.push(mesh);
+            geometry.instances.push(Instance { mesh: index, world_from_mesh: water.place });
+        }
+        Arc::new(geometry)
+    }
+
+    /// A shader for each surface.
+    pub(super) fn shaders(&self) -> impl Iterator<Item = Box<dyn Shade>> {
+        (0..self.0.len()).map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.0), i)) })
+    }
+
+    pub(super) fn fill(&self) -> Arc<dyn Traverse> {
+        Arc::new(Fill::new(Arc::clone(&self.0)))
+    }
+
+    /// A source as it arrives above and below; its shadows are no straight lines any more. A lamp with an extent stays as
+    /// it is, and goes through water as through air.
+    pub(super) fn lit(&self, scene: &Scene, source: Source) -> Source {
+        let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
+        let point = source.point.map(|point| match point {
+            PointSource::Toward(toward) => Kind::Toward(toward),
+            PointSource::At(position) => Kind::At(position),
+        });
+        let sky = (source.name == SKY).then_some(Kind::Around);
+        let Some(kind) = sun.or(point).or(sky) else { return source };
+        Source { light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.0))), point: None, ..source }
+    }
+}
