@@ -200,3 +200,17 @@ fn water_that_shines_like_its_surroundings_is_not_to_be_seen() {
         assert!((f64::from(luminance) / l - 1.0).abs() < 2e-4, "{luminance}");
     }
 }
+
+#[test]
+fn an_even_sky_under_water() {
+    // ∫ n² T cos θ′ dω′ over Snell's window, relative to π: 0.93249 for n = 1.34 by an independent quadrature.
+    let at = |water: &str| {
+        let text = "[sky]\nmodel = 'uniform'\nilluminance = 10000\n[sun]\noff = true\n[[sensor]]\npoints = [[0, -1, 0]]\n";
+        lux(&format!("{text}{water}"), &[])[0]
+    };
+    let water = WATER.replace("1.33", "1.34");
+    let got = at(&water) / at("");
+    // 256 directions, evenly spread over the window: T falls to nothing at its rim, where 1/256 of them counts half at most; and
+    // beyond 200 m nothing is water.
+    assert!((got / 0.932_49 - 1.0).abs() < 2e-3, "{got}");
+}
