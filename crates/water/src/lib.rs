@@ -1,7 +1,11 @@
 //! Light in and through water.
 
+pub mod path;
 pub mod phase;
 mod quadrature;
+pub mod quality;
 
+pub use path::{Leg, Paths, Surface, Way};
 pub use phase::{Phase, PhaseError};
 pub use quadrature::{Integral, Tolerance};
+pub use quality::{Loss, QualityError, Scatterer, Water};

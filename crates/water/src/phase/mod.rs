@@ -86,9 +86,20 @@ impl Phase {
         Ok(Self::normalised(Shape::Molecular { depolarisation }))
     }
 
-    /// That of pure water.
-    pub(crate) fn water() -> Self {
+    /// That of pure water, with [`DEPOLARISATION`].
+    pub fn water() -> Self {
         Self::normalised(Shape::Molecular { depolarisation: DEPOLARISATION })
+    }
+
+    /// 1 + 0.835 cos² θ, that of pure water by Morel 1974.
+    pub fn morel() -> Self {
+        Self::normalised(Shape::Molecular { depolarisation: DEPOLARISATION_MOREL })
+    }
+
+    /// That of the thesis for sea water, with [`THESIS_SEA`].
+    pub fn thesis() -> Self {
+        let [forward, backward] = THESIS_SEA;
+        Self::normalised(Shape::BeardsleyZaneveld { forward, backward })
     }
 
     /// Petzold's measurements (1972) of three waters, less molecular scattering, on average (Mobley, *Light and Water*,
@@ -115,7 +126,7 @@ impl Phase {
 
     /// Spheres of relative index `index` (1.01 to 1.35) with diameters distributed as d^−slope (3.3 to 4.9): Fournier and Forand 1994,
     /// in the form of Fournier and Jonasz 1999. Of slopes near 3 a part of the light goes on within less than 1e-6 rad
-    /// (8 % at 3.3 and 1.02) and counts as not scattered.
+    /// (4 % at 3.3 and 1.02) and counts as not scattered.
     pub fn fournier_forand(index: f64, slope: f64) -> Result<Self, PhaseError> {
         let index = within("the index of the particles", index, [1.01, 1.35])?;
         let slope = within("the slope of their sizes", slope, [3.3, 4.9])?;
