@@ -32,7 +32,9 @@ fn print(name: &str, water: &Water) {
 
 fn main() -> Result<(), keikan_water::QualityError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    println!("               1/e of diffuse light [m]| albedo b/c     | Secchi |  R∞    | colour, the same made bright");
+    println!(
+        "               1/e of diffuse light [m]| albedo b/c     | Secchi |  R∞    | colour, the same made bright"
+    );
     println!("water             464 nm  536 nm 633 nm | 464  536  633  |   [m]  |  [%]   |");
     for name in names() {
         print(name, &Water::named(name)?);

@@ -73,8 +73,8 @@ pub(crate) fn integrate<const N: usize>(
         let (value, errors) = (sum(|piece| &piece.value), sum(|piece| &piece.error));
         let error = largest(&errors);
         let enough = tolerance.absolute.max(tolerance.relative * largest(&value));
-        let worst =
-            (0..pieces.len()).max_by(|&a, &b| largest(&pieces[a].error).total_cmp(&largest(&pieces[b].error)));
+        let worst = (0..pieces.len())
+            .max_by(|&a, &b| largest(&pieces[a].error).total_cmp(&largest(&pieces[b].error)));
         // A piece without a double inside cannot be halved.
         let halves = worst.map(|i| (i, pieces[i].from, 0.5 * (pieces[i].from + pieces[i].to), pieces[i].to));
         match halves {
@@ -105,11 +105,11 @@ fn piece<const N: usize>(from: f64, to: f64, f: impl Fn(f64) -> [f64; N]) -> Pie
     for component in 0..N {
         let weighed = |g: &dyn Fn(usize) -> f64| (0..15).map(|i| KRONROD[i.min(14 - i)] * g(i)).sum::<f64>();
         let kronrod = weighed(&|i| at[i][component]);
-        let gauss: f64 =
-            (0..7).map(|i| GAUSS[i.min(6 - i)] * at[2 * i + 1][component]).sum();
+        let gauss: f64 = (0..7).map(|i| GAUSS[i.min(6 - i)] * at[2 * i + 1][component]).sum();
         let spread = weighed(&|i| (at[i][component] - 0.5 * kronrod).abs());
         let difference = (kronrod - gauss).abs();
-        let scaled = if spread > 0.0 { spread * (200.0 * difference / spread).powf(1.5).min(1.0) } else { 0.0 };
+        let scaled =
+            if spread > 0.0 { spread * (200.0 * difference / spread).powf(1.5).min(1.0) } else { 0.0 };
         value[component] = half * kronrod;
         error[component] = half * scaled;
     }
@@ -125,7 +125,8 @@ mod tests {
     #[test]
     fn known_integrals_come_out_and_errors_are_true() {
         let exact = [1.0f64.exp() - 1.0, 2.0 / 3.0, 0.25f64.atan() + 0.75f64.atan()];
-        let found = integrate(&[0.0, 1.0], FINE, |x| [x.exp(), x.sqrt(), 1.0 / (1.0 + (x - 0.25) * (x - 0.25))]);
+        let found =
+            integrate(&[0.0, 1.0], FINE, |x| [x.exp(), x.sqrt(), 1.0 / (1.0 + (x - 0.25) * (x - 0.25))]);
         for (value, exact) in found.value.iter().zip(exact) {
             // The tolerance asked for, of the largest component, and rounding of as many terms.
             assert!((value - exact).abs() < 4e-12, "{value} {exact}");

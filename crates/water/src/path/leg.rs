@@ -159,7 +159,8 @@ impl Surface {
         let flat = if distance > 0.0 { across / distance } else { DVec3::ZERO };
         let fall = if down { -1.0 } else { 1.0 };
         let along = |cos: f64, sin: f64| flat * sin + DVec3::Y * (fall * cos);
-        let [sin_1, sin_2] = if down { [path.sin_air, path.sin_air / n] } else { [path.sin_air * n, path.sin_air] };
+        let [sin_1, sin_2] =
+            if down { [path.sin_air, path.sin_air / n] } else { [path.sin_air * n, path.sin_air] };
         Some(Leg {
             way: Way::Refracted,
             leaving: along(cos_1, sin_1),

@@ -74,7 +74,8 @@ pub fn crossing(n: f64, height: f64, depth: f64, distance: f64) -> Crossing {
 fn at_tangent(n: f64, [h, d, r]: [f64; 3], t: f64, steps: u32) -> Crossing {
     let n2_less_1 = (n - 1.0) * (n + 1.0);
     // As shares of the secant: 1/√(1 + t²) and t/√(1 + t²).
-    let (cos_air, sin_air) = if t.is_infinite() { (0.0, 1.0) } else { (1.0 / t.hypot(1.0), t / t.hypot(1.0)) };
+    let (cos_air, sin_air) =
+        if t.is_infinite() { (0.0, 1.0) } else { (1.0 / t.hypot(1.0), t / t.hypot(1.0)) };
     let cos_water = (n2_less_1 + cos_air * cos_air).sqrt() / n;
     let under = if d == 0.0 { 0.0 } else { d * (sin_air / n) / cos_water };
     let run_water = under.min(r);

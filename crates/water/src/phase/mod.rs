@@ -67,7 +67,9 @@ impl fmt::Display for PhaseError {
             Self::Range(name, value, least, largest) => {
                 write!(f, "{name} of a phase function is {value}, but must lie within {least} to {largest}")
             }
-            Self::Shares => write!(f, "the shares of a mixture must be 0 or more, and one of them more than 0"),
+            Self::Shares => {
+                write!(f, "the shares of a mixture must be 0 or more, and one of them more than 0")
+            }
         }
     }
 }
@@ -225,7 +227,9 @@ impl Shape {
         match self {
             Self::Petzold => {
                 front.extend(petzold::angles().filter(|angle| *angle < FRAC_PI_2 - 1e-9));
-                back.extend(petzold::angles().filter(|angle| *angle > FRAC_PI_2 + 1e-9 && *angle < PI - 1e-9));
+                back.extend(
+                    petzold::angles().filter(|angle| *angle > FRAC_PI_2 + 1e-9 && *angle < PI - 1e-9),
+                );
             }
             _ => front.extend([1e-3, 1e-2, 0.1, 0.5]),
         }

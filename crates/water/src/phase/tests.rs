@@ -79,7 +79,14 @@ fn the_thesis_function_has_its_known_integrals() {
 fn petzold_is_the_printed_table_made_to_sum_to_one() {
     let phase = Phase::petzold();
     // By log-log interpolation the printed table sums to 0.994, so each value here is that much larger.
-    let printed = [(0.1f64, 1772.0), (1.0, 71.81), (10.0, 1.156), (90.0, 4.305e-3), (140.0, 2.336e-3), (180.0, 3.163e-3)];
+    let printed = [
+        (0.1f64, 1772.0),
+        (1.0, 71.81),
+        (10.0, 1.156),
+        (90.0, 4.305e-3),
+        (140.0, 2.336e-3),
+        (180.0, 3.163e-3),
+    ];
     for (angle, p) in printed {
         let ratio = phase.value(angle.to_radians().cos()) / p;
         assert!((ratio - 1.0 / 0.994).abs() < 1e-3, "{angle}: {ratio}");
@@ -139,7 +146,8 @@ fn any_phase() -> impl Strategy<Value = Phase> {
         (0.0f64..0.99, 0.0f64..0.99).prop_map(|(f, b)| Phase::beardsley_zaneveld(f, b).unwrap()),
         (1.02f64..1.3, 3.3f64..4.9).prop_map(|(n, mu)| Phase::fournier_forand(n, mu).unwrap()),
         (-0.99f64..0.99).prop_map(|g| Phase::henyey_greenstein(g).unwrap()),
-        (0.0f64..1.0).prop_map(|m| Phase::mixture(vec![(m, Phase::water()), (1.0 - m, Phase::petzold())]).unwrap()),
+        (0.0f64..1.0)
+            .prop_map(|m| Phase::mixture(vec![(m, Phase::water()), (1.0 - m, Phase::petzold())]).unwrap()),
     ]
 }
 

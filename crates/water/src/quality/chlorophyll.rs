@@ -34,7 +34,11 @@ impl Water {
             (pure_absorption(nm) + plankton) * (1.0 + 0.2 * (-0.014 * (nm - 440.0)).exp())
         });
         let particles = Spectrum::from_fn(|nm| 0.30 * chlorophyll.powf(0.62) * 550.0 / nm);
-        Self::new(absorption, vec![sea_molecules(), Scatterer { scattering: particles, phase: Phase::petzold() }], SEA)
+        Self::new(
+            absorption,
+            vec![sea_molecules(), Scatterer { scattering: particles, phase: Phase::petzold() }],
+            SEA,
+        )
     }
 }
 

@@ -38,7 +38,10 @@ impl fmt::Display for QualityError {
             ),
             Self::Empty(what) => write!(f, "the table of {what} is empty"),
             Self::Order(what, row) => {
-                write!(f, "wavelengths of the table of {what} must be positive and rise, but row {row} does not")
+                write!(
+                    f,
+                    "wavelengths of the table of {what} must be positive and rise, but row {row} does not"
+                )
             }
             Self::Value(what, row, value) => {
                 write!(f, "{what} in row {row} is {value}, but must be a number of 0 or more")

@@ -168,9 +168,7 @@ fn share(part: Spectrum, whole: Spectrum) -> Spectrum {
 
 fn sound(what: &'static str, coefficient: Spectrum) -> Result<(), QualityError> {
     let bad = (0..WAVELENGTHS_NM.len()).find(|&b| !(coefficient[b] >= 0.0 && coefficient[b].is_finite()));
-    bad.map_or(Ok(()), |b| {
-        Err(QualityError::Coefficient(what, WAVELENGTHS_NM[b], f64::from(coefficient[b])))
-    })
+    bad.map_or(Ok(()), |b| Err(QualityError::Coefficient(what, WAVELENGTHS_NM[b], f64::from(coefficient[b]))))
 }
 
 fn within(

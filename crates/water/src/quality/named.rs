@@ -87,7 +87,8 @@ fn jerlov(kind: &Jerlov) -> Result<Water, QualityError> {
     let knots: Vec<f64> = (0..kind.absorption.len())
         .map(|i| kind.absorption[i] - pure_absorption(pure::FIRST_NM + kind.step_nm * i as f64))
         .collect();
-    let absorption = Spectrum::from_fn(|nm| (pure_absorption(nm) + uniform(&knots, kind.step_nm, nm)).max(0.0));
+    let absorption =
+        Spectrum::from_fn(|nm| (pure_absorption(nm) + uniform(&knots, kind.step_nm, nm)).max(0.0));
     let scattering = Spectrum::from_fn(|nm| uniform(kind.scattering, kind.step_nm, nm));
     let molecules = sea_molecules();
     let own = Spectrum(std::array::from_fn(|b| molecules.scattering[b].min(scattering[b])));
@@ -98,7 +99,12 @@ fn jerlov(kind: &Jerlov) -> Result<Water, QualityError> {
     Water::new(absorption, scatterers, SEA)
 }
 
-fn thesis(extinction: [f64; 3], scattering: [f64; 3], phase: Phase, index: f64) -> Result<Water, QualityError> {
+fn thesis(
+    extinction: [f64; 3],
+    scattering: [f64; 3],
+    phase: Phase,
+    index: f64,
+) -> Result<Water, QualityError> {
     // From blue to red: wavelengths rise.
     let rows = |values: [f64; 3]| [2, 1, 0].map(|i| (THESIS_NM[i], values[i]));
     let absorbed = std::array::from_fn(|i| extinction[i] - scattering[i]);

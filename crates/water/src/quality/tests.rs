@@ -10,8 +10,14 @@ fn every_named_water_is_possible() {
         let water = Water::named(name).unwrap_or_else(|error| panic!("{name}: {error}"));
         for b in 0..WAVELENGTHS_NM.len() {
             let (a, scattering, c) = (water.absorption()[b], water.scattering()[b], water.extinction()[b]);
-            assert!(a > 0.0 && scattering > 0.0 && scattering <= c && water.diffuse()[b] <= c, "{name} band {b}");
-            assert!((0.0..=1.0).contains(&water.albedo()[b]) && water.turned_back()[b] <= water.albedo()[b], "{name}");
+            assert!(
+                a > 0.0 && scattering > 0.0 && scattering <= c && water.diffuse()[b] <= c,
+                "{name} band {b}"
+            );
+            assert!(
+                (0.0..=1.0).contains(&water.albedo()[b]) && water.turned_back()[b] <= water.albedo()[b],
+                "{name}"
+            );
         }
         // β(θ) sums to b: midpoints of 1e-3 in cos θ do not see the peaks, so from 60° on, against b_b.
         let steps = 1000;
@@ -31,7 +37,11 @@ fn pure_water_has_the_published_coefficients() {
     // WOPP v3 at 500, 535, 570 and 605 nm: 0.0207, 0.0466, 0.0716, 0.2559. A band's mean of the curve differs from its middle
     // by its curvature: a tenth where it is smooth, more at the step at 600 nm.
     for (band, a) in [(2, 0.0207), (3, 0.0466), (4, 0.0716)] {
-        assert!((f64::from(water.absorption()[band]) / a - 1.0).abs() < 0.1, "{band}: {}", water.absorption()[band]);
+        assert!(
+            (f64::from(water.absorption()[band]) / a - 1.0).abs() < 0.1,
+            "{band}: {}",
+            water.absorption()[band]
+        );
     }
     // Zhang 2009 at 436.6 nm by (λ/440)^−4.2 from 3.3545e-3; the kernel's width adds 1 %.
     let b = 3.3545e-3 * (436.6f64 / 440.0).powf(-4.2);
@@ -94,7 +104,8 @@ fn the_thesis_pool_keeps_what_is_printed_but_the_phase_function() {
 
 #[test]
 fn secchi_depths_fall_with_chlorophyll() {
-    let depths = [0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0].map(|c| Water::of_chlorophyll(c).unwrap().secchi_depth());
+    let depths =
+        [0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0].map(|c| Water::of_chlorophyll(c).unwrap().secchi_depth());
     assert!(depths.windows(2).all(|w| w[0] > w[1]), "{depths:?}");
     // Case 1 waters of 0.1, 1 and 10 mg/m³ have some 30 to 40, 12 to 20 and 4 to 7 m (Morel et al. 2007): within a third.
     for (i, [low, high]) in [(1, [20.0, 50.0]), (3, [8.0, 26.0]), (5, [3.0, 9.0])] {
@@ -105,14 +116,26 @@ fn secchi_depths_fall_with_chlorophyll() {
 #[test]
 fn impossible_waters_are_refused_in_words() {
     let said = |error: QualityError| error.to_string();
-    assert!(said(Water::named("beer").unwrap_err()).starts_with("no water is called 'beer'; there are pool, distilled"));
+    assert!(
+        said(Water::named("beer").unwrap_err())
+            .starts_with("no water is called 'beer'; there are pool, distilled")
+    );
     assert_eq!(
         said(Water::of_chlorophyll(-1.0).unwrap_err()),
         "chlorophyll is -1 mg/m³, but must lie within 0 and 100 mg/m³"
     );
     assert!(Water::of_chlorophyll(f64::NAN).is_err() && Water::of_secchi_depth(1000.0).is_err());
     let new = |absorption, scattering, extinction| {
-        said(Water::measured(&Measured { absorption, scattering, extinction, phase: Phase::petzold(), index: FRESH }).unwrap_err())
+        said(
+            Water::measured(&Measured {
+                absorption,
+                scattering,
+                extinction,
+                phase: Phase::petzold(),
+                index: FRESH,
+            })
+            .unwrap_err(),
+        )
     };
     let one: &[(f64, f64)] = &[(550.0, 1.0)];
     assert!(new(Some(one), None, None).starts_with("1 of absorption a, scattering b and extinction c"));
@@ -121,10 +144,14 @@ fn impossible_waters_are_refused_in_words() {
     assert!(new(Some(one), Some(&[(500.0, 1.0), (500.0, 1.0)]), None).contains("row 2"));
     assert!(new(Some(one), Some(&[(500.0, -1.0)]), None).contains("scattering in row 1 is -1"));
     assert!(new(Some(one), Some(&[(f64::NAN, 1.0)]), None).contains("row 1"));
-    assert!(new(Some(one), None, Some(&[(550.0, 0.5)])).contains("absorption a (1 1/m) exceeds the extinction"));
+    assert!(
+        new(Some(one), None, Some(&[(550.0, 0.5)])).contains("absorption a (1 1/m) exceeds the extinction")
+    );
     let sick = Water::new(Spectrum::splat(f32::NAN), vec![], 1.33).unwrap_err();
     assert!(said(sick).contains("absorption around 436.6 nm is NaN"));
-    assert!(Water::new(Spectrum::ONE, vec![], 0.9).is_err() && Water::new(Spectrum::ONE, vec![], 1.0).is_ok());
+    assert!(
+        Water::new(Spectrum::ONE, vec![], 0.9).is_err() && Water::new(Spectrum::ONE, vec![], 1.0).is_ok()
+    );
 }
 
 proptest! {
