@@ -1,10 +1,12 @@
 //! Light in and through water.
 
+pub mod daylight;
 pub mod path;
 pub mod phase;
 mod quadrature;
 pub mod quality;
 
+pub use daylight::{SkyBelow, SunBelow, mirrored_sun};
 pub use path::{Leg, Paths, Surface, Way};
 pub use phase::{Phase, PhaseError};
 pub use quadrature::{Integral, Tolerance};
