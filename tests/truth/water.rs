@@ -25,7 +25,7 @@ fn pool(grey: f64, more: &str) -> String {
     )
 }
 
-const WATER: &str = "[[water]]\nindex = 1.33\n\
+const WATER: &str = "[[water]]\nquality = 'clear'\nindex = 1.33\n\
     polygon = { points = [[-200, 0, -200], [-200, 0, 200], [200, 0, 200], [200, 0, -200]] }\n";
 
 const DOWN: &str = "[[camera]]\nposition = [0, 5, 0]\ndirection = [0, -1, 0]\nfield_of_view = 2\n";

@@ -248,6 +248,12 @@ pub const KNOBS: &[Knob] = &[
         doc: "whether that ground's light passes the scene's own ground (one bounce, as if nothing shaded the ground) or is hidden by it",
     },
     Knob {
+        name: "water.paths",
+        domain: Domain::Choice(&["exact", "thesis"]),
+        presets: ["exact"; 3],
+        doc: "how a lamp's light spreads beyond a water surface: as it does, or as the thesis prints it (3.11, 3.12: up to ten times too bright)",
+    },
+    Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],

@@ -69,8 +69,10 @@ pub struct Water {
     pub surface: Mesh,
     /// Where that middle is in the world \[m\]; nothing is turned.
     pub place: DAffine3,
-    /// Index of refraction relative to air.
-    pub index: f64,
+    /// Which water, by name.
+    pub quality: String,
+    /// Index of refraction relative to air; none = the water's own.
+    pub index: Option<f64>,
 }
 
 impl Water {

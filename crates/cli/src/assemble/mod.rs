@@ -56,7 +56,7 @@ impl Standing {
     pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
         let (solids, more) = solids::bodies(scene)?
             .map_or((None, Vec::new()), |dressed| (Some(dressed.solids), dressed.shaders));
-        let waters = Waters::of(scene);
+        let waters = Waters::of(scene, &plan.settings)?;
         let seen = match waters {
             Some(_) => Waters::seen(scene, (scene.materials.len() + more.len()) as u32),
             None => Arc::clone(&scene.geometry),

@@ -2,21 +2,34 @@
 
 use std::sync::Arc;
 
-use light::{Geometry, Instance, PointSource, Shade, Traverse};
+use light::{Geometry, Instance, PointSource, Shade, Spectrum, Traverse};
 use scene::Scene;
 use water::flat::{Fill, FlatWater, Lit, Source as Kind, SurfaceShade};
+use water::{Paths, Water};
 
 use super::heavens::SKY;
 use super::lights::SUN;
+use crate::Error;
+use crate::knobs::Settings;
 use crate::pipeline::Source;
 
 /// All waters of a scene; none without any.
-pub(super) struct Waters(Arc<[FlatWater]>);
+pub(super) struct Waters {
+    waters: Arc<[FlatWater]>,
+    paths: Paths,
+}
 
 impl Waters {
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
-        let water = |water: &scene::Water| FlatWater::new(&water.surface, &water.place, water.index);
-        (!scene.waters.is_empty()).then(|| Self(scene.waters.iter().map(water).collect()))
+    /// # Errors
+    /// A water that there is not, with those that there are.
+    pub(super) fn of(scene: &Scene, settings: &Settings) -> Result<Option<Self>, Error> {
+        let flat = |water: &scene::Water| Ok(FlatWater::new(quality(water)?, &water.surface, &water.place));
+        let paths = match settings.choice("water.paths") {
+            "thesis" => Paths::Thesis,
+            _ => Paths::Exact,
+        };
+        let waters = scene.waters.iter().map(flat).collect::<Result<Arc<[_]>, Error>>()?;
+        Ok((!waters.is_empty()).then_some(Self { waters, paths }))
     }
 
     /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
@@ -34,11 +47,12 @@ impl Waters {
 
     /// A shader for each surface.
     pub(super) fn shaders(&self) -> impl Iterator<Item = Box<dyn Shade>> {
-        (0..self.0.len()).map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.0), i)) })
+        (0..self.waters.len())
+            .map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)) })
     }
 
     pub(super) fn fill(&self) -> Arc<dyn Traverse> {
-        Arc::new(Fill::new(Arc::clone(&self.0)))
+        Arc::new(Fill::new(Arc::clone(&self.waters)))
     }
 
     /// A source as it arrives above and below; its shadows are no straight lines any more. A lamp with an extent stays as
@@ -51,6 +65,27 @@ impl Waters {
         });
         let sky = (source.name == SKY).then_some(Kind::Around);
         let Some(kind) = sun.or(point).or(sky) else { return source };
-        Source { light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.0))), point: None, ..source }
+        Source {
+            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.paths)),
+            point: None,
+            ..source
+        }
     }
+}
+
+/// The water that absorbs and scatters nothing.
+const CLEAR: &str = "clear";
+
+fn quality(asked: &scene::Water) -> Result<Water, Error> {
+    let fault =
+        |error: &dyn std::fmt::Display| Error::Content(format!("[[water]] {:?}: {error}", asked.name));
+    let named = match asked.quality.as_str() {
+        CLEAR => {
+            Water::named("distilled").and_then(|water| Water::new(Spectrum::ZERO, Vec::new(), water.index()))
+        }
+        name => Water::named(name),
+    };
+    let named = named.map_err(|error| fault(&error))?;
+    let Some(index) = asked.index else { return Ok(named) };
+    Water::new(named.absorption(), named.scatterers().to_vec(), index).map_err(|error| fault(&error))
 }

@@ -198,7 +198,9 @@ pub(crate) struct WaterTable {
     pub(crate) name: Option<String>,
     /// The surface: level, its corners [m] in either order seen from above. Draw it a little into the banks.
     pub(crate) polygon: PolygonTable,
-    /// Index of refraction relative to air. Default 1.3345.
+    /// Which water: `clear`, which absorbs and scatters nothing, or one by name such as `pool`, `sea` or `jerlov-3C`. Default `pool`.
+    pub(crate) quality: Option<String>,
+    /// Index of refraction relative to air. Default: the water's own.
     #[schemars(range(min = 1.0, max = 2.0))]
     pub(crate) index: Option<f64>,
 }

@@ -10,8 +10,8 @@ use crate::{Error, Water};
 /// How far corners may lie off the level of the first \[m\]: what one writes with millimetres.
 const UNEVEN: f64 = 1e-3;
 
-/// Index of refraction of fresh water at 20 °C and 545 nm relative to air (thesis 3.6).
-const INDEX: f64 = 1.3345;
+/// What water is when nothing is said of it.
+const QUALITY: &str = "pool";
 
 /// The water of a table.
 pub(crate) fn water(spot: &Spot<'_>, number: usize, table: &WaterTable) -> Result<Water, Error> {
@@ -40,6 +40,7 @@ pub(crate) fn water(spot: &Spot<'_>, number: usize, table: &WaterTable) -> Resul
         name: table.name.clone().unwrap_or_else(|| format!("water-{number}")),
         surface: flat.mesh,
         place: DAffine3::from_translation(middle.with_y(level)),
-        index: spot.key("index").within(table.index.unwrap_or(INDEX), 1.0, 2.0, "")?,
+        quality: table.quality.clone().unwrap_or_else(|| QUALITY.to_owned()),
+        index: table.index.map(|index| spot.key("index").within(index, 1.0, 2.0, "")).transpose()?,
     })
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use light::{Arrival, Path, Place, Ray, Spectrum, Surroundings, Traverse, Way};
 
 use super::FlatWater;
+use crate::{Loss, Water};
 
 /// Points of the quadrature along a ray: Gauss and Legendre's eight, on \[0, 1\].
 const POINTS: [[f32; 2]; 8] = [
@@ -21,9 +22,10 @@ const POINTS: [[f32; 2]; 8] = [
 
 /// Water between things: what the eye sees through it is dimmed by e^(−c r), and light scattered once is added (3.26, 3.28):
 ///
-///   L = ∫ β E e^(−c r) dr,   β = b/4π
+///   L = ∫ β(θ) E e^(−K r) dr
 ///
-/// by eight points of even shares of e^(−c̄ r), c̄ the band's mean. The phase function is even in all directions for now.
+/// by eight points of even shares of e^(−K̄ r), K̄ the bands' mean, for whatever arrives there. Light that lights the water is
+/// dimmed by K = a + b_b on both legs (quasi-single scattering); of light from all around the scattering is taken to be even.
 pub struct Fill {
     waters: Arc<[FlatWater]>,
 }
@@ -42,44 +44,42 @@ impl Traverse for Fill {
         let begins = ray.at(step).as_dvec3();
         let within = |water: &&FlatWater| water.depth(begins).is_some_and(|depth| depth > 0.0);
         let Some(water) = self.waters.iter().find(within) else { return Way::CLEAR };
-        let extinction = water.extinction();
-        let transmittance = extinction.map(|c| if c > 0.0 { (-c * ray.length).exp() } else { 1.0 });
-        let added = match water.scattering.is_zero() || path.share <= 0.0 {
+        let transmittance = water.water.loss(Loss::Beam).attenuate(ray.length.min(f32::MAX));
+        let added = match water.water.scattering().is_zero() || path.share <= 0.0 {
             true => Spectrum::ZERO,
-            false => scattered(water, ray, around),
+            false => scattered(&water.water, ray, around),
         };
         Way { transmittance, added }
     }
 }
 
 /// Light scattered into the ray.
-fn scattered(water: &FlatWater, ray: &Ray, around: &dyn Surroundings) -> Spectrum {
-    let extinction = water.extinction();
-    let mean = (extinction.0.iter().sum::<f32>() / extinction.0.len() as f32).max(1e-6);
+fn scattered(water: &Water, ray: &Ray, around: &dyn Surroundings) -> Spectrum {
+    let loss = water.loss(Loss::Diffuse);
+    let mean = (loss.0.iter().sum::<f32>() / loss.0.len() as f32).max(1e-6);
     let reach = 1.0 - (-mean * ray.length).exp();
+    let even = water.scattering() * (0.25 * FRAC_1_PI);
     let mut sum = Spectrum::ZERO;
     for [at, weight] in POINTS {
-        // r of even shares: dr = reach/(c̄ e^(−c̄ r)) du.
+        // r of even shares: dr = reach/(K̄ e^(−K̄ r)) du.
         let left = 1.0 - at * reach;
         let r = -left.ln() / mean;
         let dr = reach / (mean * left) * weight;
         let position = ray.at(r);
-        let place = Place {
-            position,
-            error: 0.0,
-            normal: -ray.direction,
-            seed: position.x.to_bits() ^ position.z.to_bits(),
-        };
-        let mut facing = Spectrum::ZERO;
+        let seed = position.x.to_bits() ^ position.z.to_bits().rotate_left(16);
+        let place = Place { position, error: 0.0, normal: -ray.direction, seed };
+        let mut into = Spectrum::ZERO;
         for normal in [place.normal, -place.normal] {
             around.arrivals(&Place { normal, ..place }, &mut |arrival| match arrival {
-                // Beams come for either normal; of fields the two halves add up.
-                Arrival::Beam { irradiance, .. } => facing += irradiance * 0.5,
-                Arrival::Field { irradiance } => facing += irradiance,
+                // Beams may come for either normal: each counts for the one that it is in front of.
+                Arrival::Beam { toward, irradiance, .. } if toward.dot(normal) > 0.0 => {
+                    into += water.volume_scattering(f64::from(toward.dot(ray.direction))) * irradiance;
+                }
+                Arrival::Beam { .. } => {}
+                Arrival::Field { irradiance } => into += even * irradiance,
             });
         }
-        let fade = extinction.map(|c| (-c * r).exp());
-        sum += water.scattering * facing * fade * (0.25 * FRAC_1_PI * dr);
+        sum += into * loss.attenuate(r) * dr;
     }
     sum
 }

@@ -29,7 +29,7 @@ impl Shade for SurfaceShade {
     fn radiance(&self, hit: &Hit, around: &dyn Surroundings) -> Spectrum {
         let Some(water) = self.water.get(self.index) else { return Spectrum::ZERO };
         let (toward, normal) = (hit.toward_eye.as_dvec3(), hit.place.normal.as_dvec3());
-        let n = water.index;
+        let n = water.surface.index;
         let eta = if normal.y > 0.0 { n } else { 1.0 / n };
         let cos = toward.dot(normal).clamp(0.0, 1.0);
         let mirrored = fresnel(eta, cos) as f32;

@@ -1,13 +1,15 @@
 use glam::{DAffine3, DVec2, DVec3, Vec3};
-use light::Mesh;
+use light::{Mesh, Spectrum};
 
 use super::*;
+use crate::Water;
 
 fn square(half: f32, level: f64) -> FlatWater {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let positions = corners.map(|(x, z)| Vec3::new(x * half, 0.0, z * half)).to_vec();
     let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
-    FlatWater::new(&mesh, &DAffine3::from_translation(DVec3::new(0.0, level, 0.0)), 1.33)
+    let water = Water::new(Spectrum::ZERO, Vec::new(), 1.33).unwrap();
+    FlatWater::new(water, &mesh, &DAffine3::from_translation(DVec3::new(0.0, level, 0.0)))
 }
 
 #[test]

@@ -1,0 +1,4 @@
+//! Published coefficients of water.
+
+pub(crate) mod jerlov;
+pub(crate) mod pure;

@@ -1,0 +1,81 @@
+//! Light that water scatters towards the eye (thesis 3.5).
+//!
+//! Along a view ray from P to Q under water, r metres from P, light that faces S(r) with irradiance E(r) adds
+//!
+//!   L = ∫ β(Θ) E(r) e^(−κ r) dr,   cos Θ = V · u
+//!
+//! V towards the light, u the view ray's own direction away from the eye. κ is c for light scattered once and nothing else
+//! ([`Loss::Beam`]), K = a + b_b where scattering a little forwards counts as none ([`Loss::Diffuse`], quasi-single
+//! scattering: the default, nearer the truth). What it misses is measured in [`multiple`].
+
+mod fade;
+mod lamp;
+pub mod multiple;
+mod sky;
+mod steps;
+mod sun;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec3;
+use light::Spectrum;
+
+pub use lamp::{LAMP_TOLERANCE, Light};
+pub use sky::ScatteredSky;
+pub use steps::{Steps, Stepped};
+pub use sun::lit_intervals;
+
+use crate::{Loss, Surface, Water};
+
+/// A stretch of a view ray under water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewRay {
+    /// Its end towards the eye, P \[m\].
+    pub from: DVec3,
+    /// Unit vector away from the eye.
+    pub direction: DVec3,
+    /// Its length PQ \[m\]; infinite where there is no bottom.
+    pub length: f64,
+}
+
+impl ViewRay {
+    /// The point `distance` \[m\] along it.
+    pub fn at(&self, distance: f64) -> DVec3 {
+        self.from + self.direction * distance
+    }
+}
+
+/// Water that scatters, below its surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scattering {
+    water: Water,
+    surface: Surface,
+    coefficient: Spectrum,
+}
+
+impl Scattering {
+    /// `water` below a surface at height `level` \[m\], with the loss that its light is to have.
+    pub fn new(water: Water, level: f64, loss: Loss) -> Self {
+        let (surface, coefficient) = (Surface::of(&water, level), water.loss(loss));
+        Self { water, surface, coefficient }
+    }
+
+    /// The water.
+    pub fn water(&self) -> &Water {
+        &self.water
+    }
+
+    /// Its surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// What is lost of light on its way \[1/m\].
+    pub fn coefficient(&self) -> Spectrum {
+        self.coefficient
+    }
+
+    fn depth(&self, point: DVec3) -> f64 {
+        (self.surface.level - point.y).max(0.0)
+    }
+}

@@ -1,0 +1,97 @@
+//! Light of a luminaire scattered along a view ray by the thesis' steps.
+
+use glam::DVec3;
+use light::Spectrum;
+
+use super::{Light, Scattering, ViewRay};
+use crate::path::Way;
+
+/// How the thesis steps along a view ray (3.33 to 3.35).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steps {
+    /// Longest step \[m\].
+    pub longest: f64,
+    /// Shortest step \[m\].
+    pub shortest: f64,
+    /// Scattered luminance per metre at which the longest step is taken, I_ref \[cd m⁻³\]; a step is as much shorter as there is more.
+    pub reference: f64,
+    /// Scattered luminance per metre below which stepping ends, I_ε \[cd m⁻³\].
+    pub negligible: f64,
+}
+
+/// What stepping along a view ray found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stepped {
+    /// Scattered radiance at P \[W m⁻² sr⁻¹ nm⁻¹\].
+    pub radiance: Spectrum,
+    /// How many points it looked at.
+    pub evaluations: usize,
+}
+
+impl Scattering {
+    /// Radiance at P of a luminaire's light scattered along `ray` (finite), by the thesis' steps: trapezoids between
+    ///
+    ///   S_(i+1) = S_i + min(longest, max(longest · I_ref/I_S, shortest)) u
+    ///
+    /// from the point nearest to the luminaire's `axis` both ways (from the surface down for one in air), until light gets less with every
+    /// step and is negligible. There is no bound on the error; [`Scattering::lamp`] has one.
+    pub fn lamp_by_steps(&self, at: DVec3, axis: DVec3, light: &Light, ray: &ViewRay, steps: &Steps) -> Stepped {
+        let below = self.surface.is_below(at);
+        let ways: &[Way] = if below { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
+        let start = if below { nearest_to_axis(at, axis, ray) } else { 0.0 };
+        let mut sum = Stepped::default();
+        for &way in ways {
+            for (sign, room) in [(1.0, ray.length - start), (-1.0, start)] {
+                self.walk(way, at, light, ray, steps, [start, sign, room], &mut sum);
+            }
+        }
+        sum
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "a private loop body of one caller")]
+    fn walk(
+        &self,
+        way: Way,
+        at: DVec3,
+        light: &Light,
+        ray: &ViewRay,
+        steps: &Steps,
+        [start, sign, room]: [f64; 3],
+        sum: &mut Stepped,
+    ) {
+        if room <= 0.0 {
+            return;
+        }
+        let look = |walked: f64| self.per_metre(way, at, light, ray, start + sign * walked);
+        let (mut walked, mut here, mut step) = (0.0, look(0.0), steps.longest);
+        sum.evaluations += 1;
+        while walked < room {
+            let bright = f64::from(here.luminance());
+            // In shadow the last step is kept.
+            if bright > 0.0 {
+                step = (steps.longest * steps.reference / bright).max(steps.shortest).min(steps.longest);
+            }
+            let next = (walked + step).min(room);
+            let there = look(next);
+            sum.evaluations += 1;
+            sum.radiance += (here + there) * (0.5 * (next - walked)) as f32;
+            let leaving = (ray.at(start + sign * next) - at).dot(ray.direction) * sign >= 0.0;
+            let faint = f64::from(there.luminance()) <= steps.negligible;
+            if faint && (leaving || way == Way::Refracted) {
+                break;
+            }
+            (walked, here) = (next, there);
+        }
+    }
+}
+
+/// Distance along the ray of its point nearest to the line through `at` along `axis`.
+fn nearest_to_axis(at: DVec3, axis: DVec3, ray: &ViewRay) -> f64 {
+    let axis = axis.normalize_or_zero();
+    let across = ray.direction - axis * ray.direction.dot(axis);
+    let way = at - ray.from;
+    let way = way - axis * way.dot(axis);
+    let length2 = across.length_squared();
+    let nearest = if length2 > 1e-18 { way.dot(across) / length2 } else { (at - ray.from).dot(ray.direction) };
+    nearest.clamp(0.0, ray.length)
+}
