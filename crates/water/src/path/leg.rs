@@ -127,7 +127,7 @@ impl Surface {
         })
     }
 
-    /// Through the surface, from air into water or out of it.
+    /// Through the surface, from air into water or out of it; which side the source says.
     ///
     /// With r₁ and θ₁ on the source's side, r₂ and θ₂ on the receiver's, n = n₂/n₁ and T = 1 − α, a plane that faces the light gets
     ///
@@ -137,7 +137,7 @@ impl Surface {
     /// The thesis has I T n²/(cos θ₂ (r₁ + r₂)²) downwards (3.11), I T cos θ₁/(n_w² (r₁ + r₂)²) upwards (3.12).
     pub fn refracted(&self, source: DVec3, receiver: DVec3, paths: Paths) -> Option<Leg> {
         let (h1, h2) = ((source.y - self.level).abs(), (receiver.y - self.level).abs());
-        let down = self.is_below(receiver);
+        let down = !self.is_below(source);
         let (height, depth) = if down { (h1, h2) } else { (h2, h1) };
         let across = DVec3::new(receiver.x - source.x, 0.0, receiver.z - source.z);
         let distance = across.length();

@@ -30,6 +30,11 @@ impl ScatteredSky {
         Self { scattering, rays, table }
     }
 
+    /// The water that scatters it.
+    pub fn scattering(&self) -> &Scattering {
+        &self.scattering
+    }
+
     /// Radiance per metre scattered towards the eye at `depth` \[m\] of a view ray with unit vector `direction` \[W m⁻³ sr⁻¹ nm⁻¹\].
     pub fn source(&self, depth: f64, direction: Vec3) -> Spectrum {
         self.table.value(depth, direction)

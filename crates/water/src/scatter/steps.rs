@@ -1,7 +1,7 @@
 //! Light of a luminaire scattered along a view ray by the thesis' steps.
 
 use glam::DVec3;
-use light::Spectrum;
+use light::bands::BANDS;
 
 use super::{Light, Scattering, ViewRay};
 use crate::path::Way;
@@ -22,8 +22,8 @@ pub struct Steps {
 /// What stepping along a view ray found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stepped {
-    /// Scattered radiance at P \[W m⁻² sr⁻¹ nm⁻¹\].
-    pub radiance: Spectrum,
+    /// Scattered radiance at P per band \[W m⁻² sr⁻¹ nm⁻¹\], in f64 as thousands of steps are added.
+    pub radiance: [f64; BANDS],
     /// How many points it looked at.
     pub evaluations: usize,
 }
@@ -74,7 +74,9 @@ impl Scattering {
             let next = (walked + step).min(room);
             let there = look(next);
             sum.evaluations += 1;
-            sum.radiance += (here + there) * (0.5 * (next - walked)) as f32;
+            for (sum, pair) in sum.radiance.iter_mut().zip((here + there).0) {
+                *sum += f64::from(pair) * 0.5 * (next - walked);
+            }
             let leaving = (ray.at(start + sign * next) - at).dot(ray.direction) * sign >= 0.0;
             let faint = f64::from(there.luminance()) <= steps.negligible;
             if faint && (leaving || way == Way::Refracted) {

@@ -1,0 +1,202 @@
+use glam::{DVec3, Vec3};
+use light::{Distribution, Spectrum, Stretch};
+use proptest::prelude::*;
+
+use super::*;
+use crate::{Leg, Phase, Scatterer, SunBelow, Tolerance, Water};
+
+/// c = 1 1/m in every band, albedo ω0, under a surface of n = 1.34 at height 0.
+fn grey(albedo: f32, phase: Phase, loss: Loss) -> Scattering {
+    let scatterer = Scatterer { scattering: Spectrum::splat(albedo), phase };
+    Scattering::new(Water::new(Spectrum::splat(1.0 - albedo), vec![scatterer], 1.34).unwrap(), 0.0, loss)
+}
+
+fn down(length: f64) -> ViewRay {
+    ViewRay { from: DVec3::ZERO, direction: DVec3::NEG_Y, length }
+}
+
+fn sun_at(scattering: &Scattering, zenith: f64) -> SunBelow {
+    let (sin, cos) = zenith.to_radians().sin_cos();
+    SunBelow::new(scattering.surface(), DVec3::new(sin, cos, 0.0), Spectrum::ONE).unwrap()
+}
+
+#[test]
+fn single_scattering_is_b1_and_c1() {
+    // Sun at 60°, no bottom, nadir radiance at optical depth 0 by B.1 (c) and C.1 (K), computed elsewhere to five digits, with
+    // p = 0.06225 (1 + 0.835 cos²) and Petzold's printed table, of which ours is 1/0.994.
+    let mut worst = 0.0f64;
+    for (phase, albedo, single, quasi, slack) in [
+        (Phase::morel(), 0.2, 4.9274e-3, 5.4748e-3, 1.5e-4),
+        (Phase::morel(), 0.9, 2.2173e-2, 4.0315e-2, 1.5e-4),
+        (Phase::petzold(), 0.2, 1.2454e-4, 1.5497e-4, 8e-3),
+        (Phase::petzold(), 0.9, 5.6043e-4, 4.8118e-3, 8e-3),
+    ] {
+        for (loss, expected) in [(Loss::Beam, single), (Loss::Diffuse, quasi)] {
+            let scattering = grey(albedo, phase.clone(), loss);
+            let sun = sun_at(&scattering, 60.0);
+            let radiance = scattering.sun(&sun, &down(f64::INFINITY), &[[0.0, f64::INFINITY]]);
+            let error = f64::from(radiance[0]) / expected - 1.0;
+            worst = worst.max(error.abs());
+            assert!(error.abs() < slack, "{albedo} {loss:?}: {} {expected}", radiance[0]);
+        }
+    }
+    println!("single scattering: worst deviation from the table {worst:.1e} (Petzold's norm is 6e-3 of it)");
+}
+
+#[test]
+fn shadows_leave_what_they_do_not_cover() {
+    let dark = |from, to| Stretch { from, to, dark: true };
+    let lit = lit_intervals(&[dark(0.5, 0.6), dark(0.1, 0.2), dark(0.55, 0.7), Stretch { dark: false, ..dark(0.8, 0.9) }], 10.0);
+    assert_eq!(lit, [[0.0, 1.0], [2.0, 5.0], [7.0, 10.0]]);
+    assert!(lit_intervals(&[dark(0.0, 1.0)], 10.0).is_empty());
+    let scattering = grey(0.5, Phase::petzold(), Loss::Diffuse);
+    let (sun, ray) = (sun_at(&scattering, 40.0), down(10.0));
+    let whole = scattering.sun(&sun, &ray, &[[0.0, 10.0]]);
+    let light = scattering.sun(&sun, &ray, &lit);
+    let shaded = scattering.sun(&sun, &ray, &[[1.0, 2.0], [5.0, 7.0]]);
+    assert!(((light + shaded)[0] / whole[0] - 1.0).abs() < 1e-6, "f32");
+    // A ray that looks up, out of the depth, against midpoints.
+    let up = ViewRay { from: DVec3::new(0.0, -9.0, 0.0), direction: DVec3::new(0.6, 0.8, 0.0), length: 11.0 };
+    let closed = scattering.sun(&sun, &up, &[[0.0, 11.0]]);
+    let steps = 20_000;
+    let k = scattering.coefficient();
+    let sum: Spectrum = (0..steps)
+        .map(|i| {
+            let r = (f64::from(i) + 0.5) * 11.0 / f64::from(steps);
+            sun.facing(-up.at(r).y, k) * k.attenuate(r as f32)
+        })
+        .sum();
+    let sum = sum * scattering.water().volume_scattering(sun.toward.dot(up.direction)) * (11.0 / steps as f32);
+    // f32 sums of 20 000.
+    assert!((sum[0] / closed[0] - 1.0).abs() < 1e-4, "{} {}", sum[0], closed[0]);
+}
+
+#[test]
+fn the_scattered_sky_is_what_its_rays_add_up_to() {
+    let scattering = Scattering::new(Water::named("jerlov-II").unwrap(), 0.0, Loss::Diffuse);
+    let sky = ScatteredSky::new(scattering, |d| Spectrum::splat(1.0 + 2.0 * d.y + d.x));
+    let mut worst = 0.0f32;
+    for (x, z) in [(0.0, 0.0), (0.3, 0.1), (-0.4, 0.5), (0.7, -0.1)] {
+        let direction = Vec3::new(x, -(1.0f32 - x * x - z * z).sqrt(), z);
+        for depth in [0.0, 0.7, 5.0, 23.0] {
+            let (table, rays) = (sky.source(depth, direction), sky.source_by_rays(depth, direction));
+            worst = (0..8).map(|b| (table[b] / rays[b] - 1.0).abs()).fold(worst, f32::max);
+        }
+        let ray = ViewRay { from: DVec3::ZERO, direction: direction.as_dvec3().normalize(), length: 12.0 };
+        let k = sky.scattering().coefficient();
+        let steps = 4000;
+        let sum: Spectrum = (0..steps)
+            .map(|i| {
+                let r = (f64::from(i) + 0.5) * 12.0 / f64::from(steps);
+                sky.source_by_rays(-ray.at(r).y, direction) * k.attenuate(r as f32)
+            })
+            .sum();
+        let closed = sky.radiance(&ray);
+        for b in 0..8 {
+            worst = worst.max((closed[b] / (sum[b] * (12.0 / steps as f32)) - 1.0).abs());
+        }
+    }
+    println!("scattered sky: worst error of the table {:.2} %", 100.0 * worst);
+    // Linear over 10° and 15° of a phase function that varies by some 1 % per degree at 90°.
+    assert!(worst < 0.02, "{worst}");
+}
+
+/// 1 W/sr in every direction and band.
+fn even(_: &Leg, _: DVec3) -> Spectrum {
+    Spectrum::ONE
+}
+
+const FINE: Tolerance = Tolerance { absolute: 0.0, relative: 1e-5, evaluations: 100_000 };
+
+/// The integral by midpoints that are close where the lamp is, with no change of variable but that.
+fn by_midpoints(scattering: &Scattering, at: DVec3, ray: &ViewRay, steps: u32) -> f64 {
+    let ways: &[crate::Way] =
+        if at.y < 0.0 { &[crate::Way::Direct, crate::Way::Mirrored] } else { &[crate::Way::Refracted] };
+    let mut sum = 0.0;
+    for &way in ways {
+        for i in 0..steps {
+            let r = (f64::from(i) + 0.5) * ray.length / f64::from(steps);
+            sum += f64::from(scattering.per_metre(way, at, &even, ray, r)[2]) * ray.length / f64::from(steps);
+        }
+    }
+    sum
+}
+
+#[test]
+fn lamps_scatter_to_the_stated_error() {
+    let scattering = Scattering::new(Water::named("jerlov-3C").unwrap(), 0.0, Loss::Diffuse);
+    let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::new(0.6, -0.8, 0.0), length: 8.0 };
+    for at in [DVec3::new(2.0, -3.0, 0.2), DVec3::new(2.0, -1.0, 1.0), DVec3::new(1.0, 2.0, 0.5), DVec3::new(0.0, 0.05, 0.0)] {
+        let reference = by_midpoints(&scattering, at, &ray, 40_000);
+        let fine = scattering.lamp(at, &even, &ray, &[], FINE);
+        let draft = scattering.lamp(at, &even, &ray, &[], LAMP_TOLERANCE);
+        // Midpoints of 2e-4 m next to a lamp 0.05 m away: h²/24 · 6/d² = 4e-6; f32 noise and 1e-5 asked for.
+        assert!((fine.value[2] / reference - 1.0).abs() < 3e-5, "{at}: {} {reference}", fine.value[2]);
+        let largest = fine.value.iter().fold(0.0f64, |a, b| a.max(*b));
+        assert!((draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-3 * largest, "two ways of 1e-3 each: {at}");
+        assert!(draft.error <= 2e-3 * largest && draft.evaluations < 600, "{at}: {draft:?}");
+    }
+}
+
+#[test]
+fn fine_steps_of_the_thesis_find_the_same() {
+    let scattering = Scattering::new(Water::named("jerlov-1C").unwrap(), 0.0, Loss::Diffuse);
+    let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::new(0.6, -0.8, 0.0), length: 6.0 };
+    for at in [DVec3::new(2.0, -2.0, 0.5), DVec3::new(1.0, 1.0, 0.5)] {
+        let exact = scattering.lamp(at, &even, &ray, &[], FINE);
+        let steps = Steps { longest: 2e-3, shortest: 2e-3, reference: 1.0, negligible: 0.0 };
+        let walked = scattering.lamp_by_steps(at, DVec3::X, &even, &ray, &steps);
+        // Trapezoids of 2 mm next to a lamp half a metre away: h²/12 · 6/d² ≈ 1e-5, and the error asked of the other.
+        assert!((walked.radiance[3] / exact.value[3] - 1.0).abs() < 3e-5, "{at}: {} {}", walked.radiance[3], exact.value[3]);
+        assert!(walked.evaluations > 3000);
+    }
+}
+
+#[test]
+fn lamps_on_the_ray_and_dark_lamps_do_no_harm() {
+    let scattering = Scattering::new(Water::named("pool").unwrap(), 0.0, Loss::Diffuse);
+    let ray = down(3.0);
+    let on = scattering.lamp(DVec3::new(0.0, -1.0, 0.0), &even, &ray, &[], LAMP_TOLERANCE);
+    assert!(on.value.iter().all(|x| x.is_finite() && *x > 0.0));
+    let dark = scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &|_, _| Spectrum::ZERO, &ray, &[], LAMP_TOLERANCE);
+    assert_eq!(dark.value, [0.0; 8]);
+    // A spotlight, with its own distribution: only what lies in its beam.
+    let spot = Distribution::new(vec![0.0], vec![0.0, 10.0, 12.0], vec![100.0, 100.0, 0.0]).unwrap();
+    let light = |leg: &Leg, _: DVec3| {
+        // Aimed along +X, the luminaire's −Z.
+        let d = leg.leaving;
+        Spectrum::splat(spot.intensity(Vec3::new(d.z as f32, d.y as f32, -d.x as f32)))
+    };
+    let beam = scattering.lamp(DVec3::new(-1.0, -1.0, 0.0), &light, &ray, &[0.8, 1.2], FINE);
+    let open = scattering.lamp(DVec3::new(-1.0, -1.0, 0.0), &|_, _| Spectrum::splat(100.0), &ray, &[], FINE);
+    assert!(beam.value[2] > 0.05 * open.value[2] && beam.value[2] < open.value[2]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn scattered_light_is_finite_and_no_less_of_longer_rays(
+        zenith in 0.0f64..89.9, tilt in 0.0f64..1.5, turn in 0.0f64..6.3, length in 0.0f64..1e4, depth in 0.0f64..50.0,
+    ) {
+        let scattering = grey(0.7, Phase::petzold(), Loss::Diffuse);
+        let sun = sun_at(&scattering, zenith);
+        let direction = DVec3::new(tilt.sin() * turn.cos(), -tilt.cos(), tilt.sin() * turn.sin());
+        let ray = |length| ViewRay { from: DVec3::new(0.0, -depth, 0.0), direction, length };
+        let [short, long] = [length, 2.0 * length].map(|l| scattering.sun(&sun, &ray(l), &[[0.0, l]])[0]);
+        prop_assert!(short.is_finite() && short >= 0.0 && long >= short * (1.0 - 1e-6));
+    }
+
+    #[test]
+    fn lamps_are_found_wherever_they_are(
+        x in -20.0f64..20.0, y in -20.0f64..20.0, z in -20.0f64..20.0, tilt in -3.1f64..3.1, length in 0.01f64..100.0,
+    ) {
+        let scattering = grey(0.7, Phase::water(), Loss::Diffuse);
+        let ray = ViewRay { from: DVec3::new(0.0, -0.5, 0.0), direction: DVec3::new(tilt.sin(), -tilt.cos().abs(), 0.0).normalize(), length };
+        let at = DVec3::new(x, y, z);
+        let [rough, fine] = [LAMP_TOLERANCE, FINE].map(|t| scattering.lamp(at, &even, &ray, &[], t));
+        prop_assert!(fine.value[0].is_finite() && fine.value[0] >= 0.0);
+        // Either way of light has a thousandth of its own; f32 noise of what underflows.
+        prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-3 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
+    }
+}
