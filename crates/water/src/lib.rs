@@ -23,5 +23,5 @@ pub use daylight::{SkyBelow, SunBelow, mirrored_sun};
 pub use path::{Leg, Paths, Surface, Way};
 pub use phase::{Phase, PhaseError};
 pub use quadrature::{Integral, Tolerance};
-pub use scatter::{Scattering, ScatteredSky, ViewRay, multiple};
 pub use quality::{Loss, QualityError, Scatterer, Water};
+pub use scatter::{ScatteredSky, Scattering, ViewRay, multiple};

@@ -24,8 +24,16 @@ impl Scattering {
     /// With D the least distance of the ray from the luminaire (or its mirror image), at r₀, the variable is φ = atan((r − r₀)/D):
     /// dr/d² = dφ/D, which removes the peak (Kulla and Fajardo 2012), and Gauss–Kronrod halves what is left until `tolerance` is
     /// met. Shadows that cut the ray are found by halving: give their ends as `breaks` \[m\] where they are known.
-    pub fn lamp(&self, at: DVec3, light: &Light, ray: &ViewRay, breaks: &[f64], tolerance: Tolerance) -> Integral<BANDS> {
-        let ways: &[Way] = if self.surface.is_below(at) { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
+    pub fn lamp(
+        &self,
+        at: DVec3,
+        light: &Light,
+        ray: &ViewRay,
+        breaks: &[f64],
+        tolerance: Tolerance,
+    ) -> Integral<BANDS> {
+        let ways: &[Way] =
+            if self.surface.is_below(at) { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
         let parts = ways.iter().map(|&way| self.by_way(way, at, light, ray, breaks, tolerance));
         parts.fold(Integral { value: [0.0; BANDS], error: 0.0, evaluations: 0 }, |sum, part| Integral {
             value: std::array::from_fn(|b| sum.value[b] + part.value[b]),
@@ -62,7 +70,14 @@ impl Scattering {
     }
 
     /// β(Θ) E(r) e^(−κ r) of light that comes by one way \[W m⁻³ sr⁻¹ nm⁻¹\].
-    pub(super) fn per_metre(&self, way: Way, at: DVec3, light: &Light, ray: &ViewRay, distance: f64) -> Spectrum {
+    pub(super) fn per_metre(
+        &self,
+        way: Way,
+        at: DVec3,
+        light: &Light,
+        ray: &ViewRay,
+        distance: f64,
+    ) -> Spectrum {
         let point = ray.at(distance);
         let leg = match way {
             Way::Direct => self.surface.direct(at, point),

@@ -46,7 +46,10 @@ fn single_scattering_is_b1_and_c1() {
 #[test]
 fn shadows_leave_what_they_do_not_cover() {
     let dark = |from, to| Stretch { from, to, dark: true };
-    let lit = lit_intervals(&[dark(0.5, 0.6), dark(0.1, 0.2), dark(0.55, 0.7), Stretch { dark: false, ..dark(0.8, 0.9) }], 10.0);
+    let lit = lit_intervals(
+        &[dark(0.5, 0.6), dark(0.1, 0.2), dark(0.55, 0.7), Stretch { dark: false, ..dark(0.8, 0.9) }],
+        10.0,
+    );
     assert_eq!(lit, [[0.0, 1.0], [2.0, 5.0], [7.0, 10.0]]);
     assert!(lit_intervals(&[dark(0.0, 1.0)], 10.0).is_empty());
     let scattering = grey(0.5, Phase::petzold(), Loss::Diffuse);
@@ -66,7 +69,8 @@ fn shadows_leave_what_they_do_not_cover() {
             sun.facing(-up.at(r).y, k) * k.attenuate(r as f32)
         })
         .sum();
-    let sum = sum * scattering.water().volume_scattering(sun.toward.dot(up.direction)) * (11.0 / steps as f32);
+    let sum =
+        sum * scattering.water().volume_scattering(sun.toward.dot(up.direction)) * (11.0 / steps as f32);
     // f32 sums of 20 000.
     assert!((sum[0] / closed[0] - 1.0).abs() < 1e-4, "{} {}", sum[0], closed[0]);
 }
@@ -126,14 +130,22 @@ fn by_midpoints(scattering: &Scattering, at: DVec3, ray: &ViewRay, steps: u32) -
 fn lamps_scatter_to_the_stated_error() {
     let scattering = Scattering::new(Water::named("jerlov-3C").unwrap(), 0.0, Loss::Diffuse);
     let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::new(0.6, -0.8, 0.0), length: 8.0 };
-    for at in [DVec3::new(2.0, -3.0, 0.2), DVec3::new(2.0, -1.0, 1.0), DVec3::new(1.0, 2.0, 0.5), DVec3::new(0.0, 0.05, 0.0)] {
+    for at in [
+        DVec3::new(2.0, -3.0, 0.2),
+        DVec3::new(2.0, -1.0, 1.0),
+        DVec3::new(1.0, 2.0, 0.5),
+        DVec3::new(0.0, 0.05, 0.0),
+    ] {
         let reference = by_midpoints(&scattering, at, &ray, 40_000);
         let fine = scattering.lamp(at, &even, &ray, &[], FINE);
         let draft = scattering.lamp(at, &even, &ray, &[], LAMP_TOLERANCE);
         // Midpoints of 2e-4 m next to a lamp 0.05 m away: h²/24 · 6/d² = 4e-6; f32 noise and 1e-5 asked for.
         assert!((fine.value[2] / reference - 1.0).abs() < 3e-5, "{at}: {} {reference}", fine.value[2]);
         let largest = fine.value.iter().fold(0.0f64, |a, b| a.max(*b));
-        assert!((draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-3 * largest, "two ways of 1e-3 each: {at}");
+        assert!(
+            (draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-3 * largest,
+            "two ways of 1e-3 each: {at}"
+        );
         assert!(draft.error <= 2e-3 * largest && draft.evaluations < 600, "{at}: {draft:?}");
     }
 }
@@ -147,7 +159,12 @@ fn fine_steps_of_the_thesis_find_the_same() {
         let steps = Steps { longest: 2e-3, shortest: 2e-3, reference: 1.0, negligible: 0.0 };
         let walked = scattering.lamp_by_steps(at, DVec3::X, &even, &ray, &steps);
         // Trapezoids of 2 mm next to a lamp half a metre away: h²/12 · 6/d² ≈ 1e-5, and the error asked of the other.
-        assert!((walked.radiance[3] / exact.value[3] - 1.0).abs() < 3e-5, "{at}: {} {}", walked.radiance[3], exact.value[3]);
+        assert!(
+            (walked.radiance[3] / exact.value[3] - 1.0).abs() < 3e-5,
+            "{at}: {} {}",
+            walked.radiance[3],
+            exact.value[3]
+        );
         assert!(walked.evaluations > 3000);
     }
 }
