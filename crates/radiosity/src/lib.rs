@@ -1,0 +1,18 @@
+//! Diffuse interreflection.
+
+mod between;
+mod form_factor;
+mod lambert;
+mod links;
+mod patch;
+mod sight;
+mod solve;
+mod tree;
+mod triangle;
+
+pub use between::{Absorbing, Attenuate, Between, Clear, Mirror};
+pub use form_factor::{FormFactor, attenuated_form_factor, form_factor};
+pub use lambert::point_form_factor;
+pub use links::{Linking, Links};
+pub use patch::{Cut, Patch, Patches, Side, Surfaces};
+pub use solve::{MOST_ORDERS, Orders, Solution, Source, solve};
