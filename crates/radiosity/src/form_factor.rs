@@ -1,7 +1,5 @@
 //! What share of one patch's light meets another.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 
 use crate::lambert::point_form_factor;
@@ -12,7 +10,7 @@ use crate::triangle::{self, Corners};
 pub struct FormFactor {
     /// Share of what leaves the first patch that arrives at the second, within \[0, 1\].
     pub share: f64,
-    /// Estimate of its error: the sum of what the last halving changed.
+    /// Estimate of its error: the sum, by area, of what the last two halvings changed.
     pub error: f64,
 }
 
@@ -26,8 +24,8 @@ const MOST_HALVINGS: u32 = 22;
 /// A_j F_ji, Σ_j F_ij = 1 in a closed room, and the irradiance of i is E_i = Σ_j F_ij B_j. (The thesis divides by the
 /// source's area in 3.18 and by the receiver's in 3.19 and 3.20.)
 ///
-/// Over j the integral is exact (Lambert), over i it is a rule of three points on pieces, halved until the halves change
-/// no more than `tolerance` of the whole, by area.
+/// Over j the integral is exact (Lambert). Over i it is a rule of three points on pieces of what of it is in front of j, halved
+/// until two halvings in a row change their mean by no more than `tolerance`.
 ///
 /// ```
 /// use glam::DVec3;
@@ -39,8 +37,7 @@ const MOST_HALVINGS: u32 = 22;
 /// ```
 pub fn form_factor(from: &[DVec3; 3], to: &[DVec3; 3], tolerance: f64) -> FormFactor {
     let facing = Facing::new(from, to);
-    let whole = facing.rule(from);
-    facing.refine(from, whole, tolerance, MOST_HALVINGS)
+    over_front(from, to, |part| facing.refine(part, [facing.rule(part), f64::INFINITY], tolerance, MOST_HALVINGS))
 }
 
 /// The same through a medium that leaves exp(−K r) of diffuse light after r metres (eq. 3.20): `extinction` K \[1/m\], ≥ 0.
@@ -51,8 +48,25 @@ pub fn attenuated_form_factor(
     tolerance: f64,
 ) -> FormFactor {
     let through = Through { extinction, normal: triangle::cross(from).normalize_or_zero() };
-    let whole = through.rule(from, to);
-    through.refine([from, to], whole, tolerance, MOST_HALVINGS)
+    over_front(from, to, |part| {
+        through.refine([part, to], [through.rule(part, to), f64::INFINITY], tolerance, MOST_HALVINGS)
+    })
+}
+
+/// The mean over `from`, from that of the parts of it in front of `to`, in each of which the integrand has no kink.
+fn over_front(from: &Corners, to: &Corners, mean: impl Fn(&Corners) -> FormFactor) -> FormFactor {
+    let (parts, count) = triangle::in_front(from, to);
+    let whole = triangle::cross(from).length();
+    let mut sum = FormFactor { share: 0.0, error: 0.0 };
+    for part in &parts[..count] {
+        let weight = triangle::cross(part).length() / whole;
+        if weight > 0.0 {
+            let mean = mean(part);
+            sum.share += weight * mean.share;
+            sum.error += weight * mean.error;
+        }
+    }
+    sum
 }
 
 /// A patch that looks at another.
@@ -81,19 +95,26 @@ impl<'a> Facing<'a> {
         triangle::three_points(from).iter().map(|&at| self.from_point(at)).sum::<f64>() / 3.0
     }
 
-    /// Mean over `from`, of which `whole` is a first guess.
-    fn refine(&self, from: &Corners, whole: f64, tolerance: f64, left: u32) -> FormFactor {
+    /// Mean over `from`, of which `whole` is a first guess, by which the halving before changed it.
+    fn refine(&self, from: &Corners, [whole, before]: [f64; 2], tolerance: f64, left: u32) -> FormFactor {
         let halves = triangle::halves(from, triangle::apex(from));
         let [first, second] = [0, 1].map(|k| self.rule(&halves[k]));
         let better = 0.5 * (first + second);
-        let error = (better - whole).abs();
-        // Two points of difference: nothing seen at all by nine points is taken at its word only for small pieces.
-        if error <= tolerance || left == 0 {
+        let change = (better - whole).abs();
+        if let Some(error) = settled(change, before, tolerance, left) {
             return FormFactor { share: better, error };
         }
-        let [a, b] = [(0, first), (1, second)].map(|(k, mean)| self.refine(&halves[k], mean, tolerance, left - 1));
+        let [a, b] = [(0, first), (1, second)]
+            .map(|(k, mean)| self.refine(&halves[k], [mean, change], tolerance, left - 1));
         FormFactor { share: 0.5 * (a.share + b.share), error: 0.5 * (a.error + b.error) }
     }
+}
+
+/// The error of a mean that two halvings in a row have hardly changed; none as long as they do. One alone may agree by
+/// chance.
+fn settled(change: f64, before: f64, tolerance: f64, left: u32) -> Option<f64> {
+    let error = change.max(0.25 * before);
+    (error <= tolerance || left == 0).then_some(error)
 }
 
 /// A medium between two patches.
@@ -124,18 +145,24 @@ impl Through {
         triangle::three_points(from).into_iter().map(seen).sum::<f64>() / 3.0
     }
 
-    fn refine(&self, [from, to]: [&Corners; 2], whole: f64, tolerance: f64, left: u32) -> FormFactor {
+    fn refine(
+        &self,
+        [from, to]: [&Corners; 2],
+        [whole, before]: [f64; 2],
+        tolerance: f64,
+        left: u32,
+    ) -> FormFactor {
         let [mine, theirs] = [from, to].map(|corners| triangle::halves(corners, triangle::apex(corners)));
         let pairs = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| (&mine[i], &theirs[j]));
         let parts = pairs.map(|(i, j)| self.rule(i, j));
         let better = 0.5 * parts.iter().sum::<f64>();
-        let error = (better - whole).abs();
-        if error <= tolerance || left == 0 {
+        let change = (better - whole).abs();
+        if let Some(error) = settled(change, before, tolerance, left) {
             return FormFactor { share: better, error };
         }
         let mut sum = FormFactor { share: 0.0, error: 0.0 };
         for ((i, j), part) in pairs.into_iter().zip(parts) {
-            let part = self.refine([i, j], part, 0.5 * tolerance, left - 1);
+            let part = self.refine([i, j], [part, 0.5 * change], 0.5 * tolerance, left - 1);
             sum.share += 0.5 * part.share;
             sum.error += 0.5 * part.error;
         }
@@ -143,13 +170,9 @@ impl Through {
     }
 }
 
-/// A_i F_ij \[m²\] of a pair whose centres are farther apart than four times their radii together: three points, whose rule
-/// leaves out terms of the third order, under (¼)³/10 of the pair's own F.
-pub(crate) fn far_exchange(from: &Corners, to: &Corners) -> f64 {
-    Facing::new(from, to).rule(from) * 0.5 * triangle::cross(from).length()
-}
-
-/// A_i F_ij by centres alone \[m²\], for projected areas \[m²\] at `distance` \[m\].
-pub(crate) fn point_exchange(projected: [f64; 2], distance: f64) -> f64 {
-    projected[0] * projected[1] / (PI * distance * distance)
+/// Form factor from a triangle to another that is farther away than four times their radii together: by three points, whose
+/// rule leaves out terms of the third order, under (¼)³ of the pair's own.
+pub(crate) fn far_form_factor(from: &Corners, to: &Corners) -> f64 {
+    let facing = Facing::new(from, to);
+    over_front(from, to, |part| FormFactor { share: facing.rule(part), error: 0.0 }).share
 }

@@ -1,10 +1,12 @@
 //! Diffuse interreflection.
 
+mod balance;
 mod between;
 mod form_factor;
 mod lambert;
 mod links;
 mod patch;
+pub mod reference;
 mod sight;
 mod solve;
 mod tree;

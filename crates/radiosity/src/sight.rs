@@ -12,7 +12,7 @@ use crate::tree::Node;
 pub(crate) enum Sight {
     /// They turn their backs on each other.
     None,
-    /// They may; of what either sends out no more than this share arrives at the other (infinite when too near to tell).
+    /// They may; of what the first sends out no more than this share arrives at the second (infinite when too near to tell).
     Within(f64),
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn sight(a: &Node, b: &Node) -> Sight {
         return Sight::None;
     };
     let gap = distance - radii;
-    Sight::Within(a.area.max(b.area) * cos_a * cos_b / (PI * gap * gap))
+    Sight::Within(b.area * cos_a * cos_b / (PI * gap * gap))
 }
 
 /// Whether all of `b` is behind the plane of piece `a`.

@@ -36,6 +36,7 @@ pub struct Source<'a> {
 }
 
 /// Interreflected light.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// By patch: irradiance from all other patches \[W m⁻² nm⁻¹\], without the primary light.
     pub irradiance: Vec<Spectrum>,
@@ -43,15 +44,8 @@ pub struct Solution {
     pub orders: u32,
     /// Share of the flux that set out which was still under way when they ended, the largest over the bands.
     pub left: f64,
-    /// By node: exitance that was handed on \[W m⁻² nm⁻¹\].
-    pub(crate) exitance: Vec<Spectrum>,
-}
-
-impl Solution {
     /// By patch: exitance that was handed on to others \[W m⁻² nm⁻¹\].
-    pub fn exitance(&self, patches: &Patches) -> Vec<Spectrum> {
-        patches.leaves.iter().map(|&node| self.exitance[node as usize]).collect()
-    }
+    pub exitance: Vec<Spectrum>,
 }
 
 /// Follows light from patch to patch:
@@ -66,24 +60,20 @@ pub fn solve(patches: &Patches, links: &Links, source: &Source<'_>, orders: Orde
         Orders::Until(_) => MOST_ORDERS,
     };
     let enough = if let Orders::Until(share) = orders { share } else { 0.0 };
-    let nodes = patches.tree.nodes.len();
     let at = |list: &[Spectrum], patch: usize| list.get(patch).copied().unwrap_or_default();
     let mut going: Vec<_> = (0..patches.len())
         .map(|i| at(source.emitted, i) + patches.reflectance(i) * at(source.direct, i))
         .collect();
     let first = patches.integral(&going);
-    let mut total = vec![Spectrum::ZERO; nodes];
+    let mut total = vec![Spectrum::ZERO; patches.len()];
     let mut irradiance = vec![Spectrum::ZERO; patches.len()];
     let (mut done, mut left) = (0, left(first, first));
     while done < most && left > enough {
-        let exitance = pulled(patches, &going);
-        let arriving = links.irradiance(patches, &exitance);
-        for (sum, exitance) in total.iter_mut().zip(&exitance) {
-            *sum += *exitance;
-        }
-        for (patch, &node) in patches.leaves.iter().enumerate() {
-            irradiance[patch] += arriving[node as usize];
-            going[patch] = patches.reflectance(patch) * arriving[node as usize];
+        let arriving = links.irradiance(patches, &going);
+        for patch in 0..patches.len() {
+            total[patch] += going[patch];
+            irradiance[patch] += arriving[patch];
+            going[patch] = patches.reflectance(patch) * arriving[patch];
         }
         done += 1;
         left = self::left(patches.integral(&going), first);

@@ -44,3 +44,23 @@ pub(crate) fn three_points([a, b, c]: &Corners) -> [DVec3; 3] {
     let inner = |p: DVec3, q: DVec3, r: DVec3| (p * 4.0 + q + r) / 6.0;
     [inner(*a, *b, *c), inner(*b, *c, *a), inner(*c, *a, *b)]
 }
+
+/// The part of a triangle in front of another's plane, as so many of two triangles.
+pub(crate) fn in_front(corners: &Corners, of: &Corners) -> ([Corners; 2], usize) {
+    let across = cross(of);
+    let heights = corners.map(|corner| (corner - of[0]).dot(across));
+    let above = heights.iter().filter(|&&height| height > 0.0).count();
+    if above == 3 || heights.iter().all(|&height| height >= 0.0) {
+        return ([*corners; 2], usize::from(above > 0));
+    }
+    // Turned so that the one that is alone on its side comes first.
+    let Some(alone) = (0..3).find(|&k| (heights[k] > 0.0) == (above == 1)) else { return ([*corners; 2], 0) };
+    let [a, b, c] = [0, 1, 2].map(|k| corners[(alone + k) % 3]);
+    let [ha, hb, hc] = [0, 1, 2].map(|k| heights[(alone + k) % 3]);
+    let [ab, ac] = [a.lerp(b, ha / (ha - hb)), a.lerp(c, ha / (ha - hc))];
+    match above {
+        1 => ([[a, ab, ac]; 2], 1),
+        2 => ([[ab, b, c], [ab, c, ac]], 2),
+        _ => ([*corners; 2], 0),
+    }
+}
