@@ -1,5 +1,7 @@
 //! What lies between two points that light each other: things, a medium, and mirrors beside the straight way.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use light::{Occlude, Place, Spectrum, sampling};
 
@@ -60,7 +62,7 @@ pub struct Between<'a> {
     /// The medium.
     pub attenuate: &'a dyn Attenuate,
     /// Mirrors; most often none.
-    pub mirrors: &'a [&'a dyn Mirror],
+    pub mirrors: &'a [Arc<dyn Mirror>],
 }
 
 impl<'a> Between<'a> {
@@ -114,6 +116,7 @@ impl<'a> Between<'a> {
             if weight > 0.0 && weight.is_finite() {
                 let [from, to] = [(x, nx, 0), (y, ny, 1)]
                     .map(|(at, normal, k)| place(at, normal, pair.reach(k, at), pair.seed));
+                let from = Place { error: from.error.max(pair.error), ..from };
                 mean.add(self.share(pair.mirror, &from, &to), weight as f32);
             }
         }
@@ -128,6 +131,8 @@ pub(crate) struct Pair<'a> {
     pub(crate) mirror: Option<&'a dyn Mirror>,
     pub(crate) seed: u32,
     pub(crate) rays: u32,
+    /// The first is at least this far off \[m\].
+    pub(crate) error: f32,
 }
 
 impl Pair<'_> {

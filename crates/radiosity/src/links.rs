@@ -1,18 +1,14 @@
 //! Which parts of the scene light which patch: links to nodes of the tree, as coarse as they may be.
 
-use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use light::Spectrum;
-use light::sampling::scramble;
 use rayon::prelude::*;
 
 use crate::Patches;
 use crate::balance::Balance;
-use crate::between::{Between, Mirror, Pair};
-use crate::form_factor::{far_form_factor, form_factor};
-use crate::sight::{Sight, sight};
-use crate::tree::Node;
+use crate::between::Between;
+use crate::gather::{Gather, Receiver};
 
 /// How exactly light is followed from patch to patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,109 +165,16 @@ impl Finder<'_> {
     /// The links of a patch; whatever, once there are too many in all.
     fn of(&self, patch: usize) -> Found {
         let mut found = (Vec::new(), Vec::new());
-        let mirrors = self.between.mirrors.iter().enumerate();
-        let ways = std::iter::once(None).chain(mirrors.map(|(k, &mirror)| Some((k as u32, mirror))));
-        for by in ways {
-            let mut open = vec![0];
-            while let Some(node) = open.pop() {
-                if self.found.load(Ordering::Relaxed) > self.linking.most {
-                    return found;
-                }
-                if let Look::Into([first, second]) = self.look(patch, node, by, &mut found) {
-                    open.extend([second, first]);
-                }
-            }
+        if self.found.load(Ordering::Relaxed) > self.linking.most {
+            return found;
         }
+        let Self { patches, between, linking, .. } = self;
+        let gather = Gather { patches, between, share: linking.share, rays: linking.rays, seed: linking.seed };
+        let receiver = Receiver { node: patches.node(patch), name: patches.leaves[patch], error: 0.0 };
+        gather.all(&receiver, &mut |source, share, tint| add(&mut found, source, share, tint));
         self.found.fetch_add(found.0.len(), Ordering::Relaxed);
         found
     }
-
-    /// Looks at a node from a patch, and links them if it may.
-    fn look(&self, patch: usize, source: u32, by: Option<(u32, &dyn Mirror)>, found: &mut Found) -> Look {
-        let (a, b) = (self.patches.node(patch), &self.patches.tree.nodes[source as usize]);
-        let seen = match by {
-            None => *b,
-            Some((_, mirror)) if are_apart(mirror, a, b) => return Look::Done,
-            Some((_, mirror)) => b.image(mirror.plane().0, mirror.plane().1),
-        };
-        let Sight::Within(most) = sight(a, &seen) else { return Look::Done };
-        let gap = a.centre.distance(seen.centre) / (a.radius + b.radius);
-        let may = most <= self.linking.share && (b.is_piece || (b.spread <= WIDEST_GROUP && gap >= FAR));
-        let children = match b.children {
-            Some(children) if !may => return Look::Into(children),
-            other => other,
-        };
-        let share = self.clear_share(a, b, &seen, by, gap);
-        if share <= 0.0 {
-            return Look::Done;
-        }
-        let (tint, partial) = self.through(patch, source, by);
-        match children {
-            Some(children) if partial && most > 0.25 * self.linking.share => Look::Into(children),
-            _ => {
-                add(found, source, share, tint);
-                Look::Done
-            }
-        }
-    }
-
-    /// F_ij with nothing in the way; `seen` is `b`, or its mirror image.
-    fn clear_share(&self, a: &Node, b: &Node, seen: &Node, by: Option<(u32, &dyn Mirror)>, gap: f64) -> f64 {
-        if !b.is_piece {
-            let distance = a.centre.distance(seen.centre);
-            let toward = (seen.centre - a.centre) / distance;
-            // A mirrored group is the group itself, seen along the mirrored way.
-            let back = by.map_or(-toward, |(_, mirror)| {
-                let normal = mirror.plane().1;
-                normal * (2.0 * toward.dot(normal)) - toward
-            });
-            let projected = self.patches.tree.projected(b, back);
-            return a.normal.dot(toward).max(0.0) * projected / (PI * distance * distance);
-        }
-        if gap > FAR {
-            return far_form_factor(&a.corners, &seen.corners);
-        }
-        form_factor(&a.corners, &seen.corners, PAIR_TOLERANCE).share
-    }
-
-    /// The share that arrives between two nodes, and whether things hide them in part.
-    fn through(&self, patch: usize, source: u32, by: Option<(u32, &dyn Mirror)>) -> (Spectrum, bool) {
-        let mine = self.patches.leaves[patch];
-        // The same ways there and back.
-        let name = mine.min(source) ^ scramble(mine.max(source) ^ scramble(by.map_or(0, |(mirror, _)| mirror + 1)));
-        let rays = self.linking.rays.clamp(1, 1 << 16);
-        let seed = scramble(name ^ scramble(self.linking.seed));
-        let nodes = [mine.min(source), mine.max(source)].map(|node| &self.patches.tree.nodes[node as usize]);
-        let pair = Pair { tree: &self.patches.tree, nodes, mirror: by.map(|(_, mirror)| mirror), seed, rays };
-        let first = self.between.ways(&pair, 0, rays);
-        if first.is_partial() {
-            return (first.and(self.between.ways(&pair, rays, 4 * rays)).value(), true);
-        }
-        (first.value(), false)
-    }
-}
-
-/// What to do after a look.
-enum Look {
-    Done,
-    Into([u32; 2]),
-}
-
-/// Distance, in radii, from which a pair is simple: see [`far_form_factor`]; groups are taken as points from there on, whose
-/// shares are off by up to (1/FAR)².
-const FAR: f64 = 4.0;
-
-/// Groups whose normals are farther apart \[rad\] are never seen as one.
-const WIDEST_GROUP: f64 = 0.5;
-
-/// Of form factors of near pairs: a patch has some tens of them, whose errors add at worst.
-const PAIR_TOLERANCE: f64 = 1e-4;
-
-/// Whether two nodes lie on different sides of a mirror, which does not join them then.
-fn are_apart(mirror: &dyn Mirror, a: &Node, b: &Node) -> bool {
-    let (point, normal) = mirror.plane();
-    let [ha, hb] = [a, b].map(|node| (node.centre - point).dot(normal));
-    (ha >= a.radius && hb <= -b.radius) || (ha <= -a.radius && hb >= b.radius)
 }
 
 fn add((links, tints): &mut Found, source: u32, share: f64, tint: Spectrum) {

@@ -220,6 +220,15 @@ impl Patches {
         &self.tree.nodes[self.leaves[patch] as usize]
     }
 
+    /// The side of a face that `normal` is on.
+    pub(crate) fn side(&self, face: [u32; 2], normal: DVec3) -> Option<Side> {
+        let first = *self.before.get(face[0] as usize)?;
+        let roots = *self.roots.get(first + face[1] as usize)?;
+        let along = |root: u32| self.tree.nodes.get(root as usize).map(|node| node.normal.dot(normal) >= 0.0);
+        let front = along(roots[0]).or_else(|| along(roots[1]).map(|back| !back))?;
+        Some(if front { Side::Front } else { Side::Back })
+    }
+
     /// The patch that `at` (a point of the face, or near it) is on, and the weights of its corners there; none where that side
     /// of the face takes no part.
     pub(crate) fn locate(&self, face: [u32; 2], side: Side, at: DVec3) -> Option<(usize, [f64; 3])> {
@@ -251,7 +260,7 @@ fn share(reflectance: Spectrum) -> Spectrum {
 }
 
 /// Weights of the corners at a point, brought inside.
-fn weights(corners: &Corners, at: DVec3) -> Option<[f64; 3]> {
+pub(crate) fn weights(corners: &Corners, at: DVec3) -> Option<[f64; 3]> {
     let cross = triangle::cross(corners);
     let [a, b, c] = *corners;
     let p = at - a;

@@ -44,6 +44,11 @@ impl Node {
         }
     }
 
+    /// A point that looks along the unit vector `normal`.
+    pub(crate) fn point(at: DVec3, normal: DVec3) -> Self {
+        Self { normal, ..Self::piece([at; 3]) }
+    }
+
     fn group(children: [u32; 2], parts: [&Self; 2]) -> Self {
         let area = parts[0].area + parts[1].area;
         let centre = (parts[0].centre * parts[0].area + parts[1].centre * parts[1].area) / area;
