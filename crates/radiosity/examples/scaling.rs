@@ -18,7 +18,9 @@ fn main() {
     let placed = |mesh| Instance { mesh, world_from_mesh: DAffine3::IDENTITY };
     let instances = (0..meshes.len() as u32).map(placed).collect();
     let geometry = Geometry { meshes, instances };
-    println!("patches  share rays | links  MB | link s  solve s (3 orders) | closure mean, least | E/(Φ/S(1−ρ)) converged");
+    println!(
+        "patches  share rays | links  MB | link s  solve s (3 orders) | closure mean, least | E/(Φ/S(1−ρ)) converged"
+    );
     for edge in [1.1, 0.8, 0.3, 0.09] {
         let patches = Patches::new(&geometry, &Inside, &Cut { edge, ..Cut::default() });
         for share in [0.1, 0.05, 0.02] {
@@ -26,7 +28,9 @@ fn main() {
             let start = Instant::now();
             let links = Links::new(&patches, &Between::dry(&boxes), &linking);
             let linked = start.elapsed().as_secs_f64();
-            let lit = |patch: Patch| patch.centre().y > 2.999 && patch.centre().distance(DVec3::new(2.0, 3.0, 2.0)) < 1.0;
+            let lit = |patch: Patch| {
+                patch.centre().y > 2.999 && patch.centre().distance(DVec3::new(2.0, 3.0, 2.0)) < 1.0
+            };
             let direct: Vec<_> =
                 patches.iter().map(|patch| if lit(patch) { Spectrum::ONE } else { Spectrum::ZERO }).collect();
             let source = Source { emitted: &[], direct: &direct };

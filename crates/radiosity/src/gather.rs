@@ -6,7 +6,7 @@ use light::Spectrum;
 use light::sampling::scramble;
 
 use crate::between::{Between, Mirror, Pair};
-use crate::form_factor::{far_form_factor, form_factor};
+use crate::form_factor::quick_form_factor;
 use crate::sight::{Sight, sight};
 use crate::tree::Node;
 use crate::{Patches, point_form_factor};
@@ -100,10 +100,7 @@ impl Gather<'_> {
             let facing = (a.centre - seen.corners[0]).dot(seen.normal) > 0.0;
             return if facing { point_form_factor(a.centre, a.normal, &seen.corners) } else { 0.0 };
         }
-        if gap > FAR {
-            return far_form_factor(&a.corners, &seen.corners);
-        }
-        form_factor(&a.corners, &seen.corners, PAIR_TOLERANCE).share
+        quick_form_factor(&a.corners, &seen.corners, gap, PAIR_TOLERANCE)
     }
 
     /// The share that arrives between receiver and node, and whether things hide them in part.
@@ -133,8 +130,7 @@ enum Look {
     Into([u32; 2]),
 }
 
-/// Distance, in radii, from which a pair is simple: see [`far_form_factor`]; groups are taken as points from there on, whose
-/// shares are off by up to (1/FAR)².
+/// Distance, in radii, from which groups are taken as points: their shares are off by up to (1/FAR)².
 const FAR: f64 = 4.0;
 
 /// Groups whose normals are farther apart \[rad\] are never seen as one.

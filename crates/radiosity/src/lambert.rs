@@ -90,9 +90,8 @@ mod tests {
     #[test]
     fn what_is_below_the_horizon_is_cut_off() {
         // A wall that stands through the horizon: its upper half alone.
-        let wall = |low: f64| {
-            [(-1.0, low), (1.0, low), (1.0, 1.0), (-1.0, 1.0)].map(|(y, z)| DVec3::new(1.0, y, z))
-        };
+        let wall =
+            |low: f64| [(-1.0, low), (1.0, low), (1.0, 1.0), (-1.0, 1.0)].map(|(y, z)| DVec3::new(1.0, y, z));
         let [whole, upper] = [-1.0, 0.0].map(|low| point_form_factor(DVec3::ZERO, DVec3::Z, &wall(low)));
         assert!((whole - upper).abs() < ROUNDING && upper > 0.1, "{whole} {upper}");
         assert_eq!(point_form_factor(DVec3::ZERO, DVec3::NEG_Z, &square(1.0, 1.0, 1.0)), 0.0);
@@ -102,7 +101,9 @@ mod tests {
     fn corners_of_the_domain_are_shares() {
         let far = DVec3::splat(1e6);
         let near = square(1.0, 1.0, 0.0);
-        for (at, normal) in [(DVec3::ZERO, DVec3::Z), (near[1], DVec3::X), (DVec3::new(0.5, 0.0, 0.0), DVec3::Y)] {
+        for (at, normal) in
+            [(DVec3::ZERO, DVec3::Z), (near[1], DVec3::X), (DVec3::new(0.5, 0.0, 0.0), DVec3::Y)]
+        {
             let f = point_form_factor(at, normal, &near);
             assert!((0.0..=1.0).contains(&f), "{f}");
         }

@@ -30,7 +30,7 @@ pub struct Linking {
 impl Default for Linking {
     /// See the crate's first page for what it costs and leaves.
     fn default() -> Self {
-        Self { share: 0.02, rays: 4, closed: false, most: 100_000_000, seed: 0 }
+        Self { share: 0.05, rays: 4, closed: false, most: 100_000_000, seed: 0 }
     }
 }
 
@@ -169,7 +169,8 @@ impl Finder<'_> {
             return found;
         }
         let Self { patches, between, linking, .. } = self;
-        let gather = Gather { patches, between, share: linking.share, rays: linking.rays, seed: linking.seed };
+        let gather =
+            Gather { patches, between, share: linking.share, rays: linking.rays, seed: linking.seed };
         let receiver = Receiver { node: patches.node(patch), name: patches.leaves[patch], error: 0.0 };
         gather.all(&receiver, &mut |source, share, tint| add(&mut found, source, share, tint));
         self.found.fetch_add(found.0.len(), Ordering::Relaxed);

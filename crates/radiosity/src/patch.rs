@@ -169,7 +169,8 @@ impl Patches {
             }
         }
         patches.roots = roots;
-        patches.reflectances = (0..patches.len()).map(|i| share(surfaces.reflectance(&patches.patch(i)))).collect();
+        patches.reflectances =
+            (0..patches.len()).map(|i| share(surfaces.reflectance(&patches.patch(i)))).collect();
         patches
     }
 

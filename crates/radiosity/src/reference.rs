@@ -33,7 +33,8 @@ impl Dense {
                 let row = |j: usize| {
                     let clear = exchange(&all[i].corners, &all[j].corners);
                     if clear > 0.0 {
-                        through([&all[i], &all[j]], [&grids[i], &grids[j]], between).map(|share| share * clear)
+                        through([&all[i], &all[j]], [&grids[i], &grids[j]], between)
+                            .map(|share| share * clear)
                     } else {
                         [0.0; BANDS]
                     }
@@ -60,7 +61,8 @@ impl Dense {
 
     /// By patch: irradiance from all others after so many reflections, as [`crate::solve`] has it.
     pub fn irradiance(&self, source: &Source<'_>, orders: u32) -> Vec<Bands> {
-        let at = |list: &[light::Spectrum], i: usize| list.get(i).copied().unwrap_or_default().0.map(f64::from);
+        let at =
+            |list: &[light::Spectrum], i: usize| list.get(i).copied().unwrap_or_default().0.map(f64::from);
         let count = self.areas.len();
         let mut going: Vec<Bands> = (0..count)
             .map(|i| {
@@ -155,7 +157,8 @@ fn clipped(corners: &[DVec3; 3], by: &[DVec3; 3]) -> Vec<DVec3> {
     let mut kept = Vec::new();
     for [p, q] in edges(corners) {
         // What lies in the plane but for rounding lies in it.
-        let [hp, hq] = [p, q].map(|p| (p - by[0]).dot(normal)).map(|h| if h.abs() < 1e-12 * size { 0.0 } else { h });
+        let [hp, hq] =
+            [p, q].map(|p| (p - by[0]).dot(normal)).map(|h| if h.abs() < 1e-12 * size { 0.0 } else { h });
         if hp >= 0.0 {
             kept.push(p);
         }

@@ -83,7 +83,11 @@ pub fn solve(patches: &Patches, links: &Links, source: &Source<'_>, orders: Orde
 
 /// The largest share over the bands; 0 where nothing set out.
 fn left(now: [f64; BANDS], first: [f64; BANDS]) -> f64 {
-    now.iter().zip(first).filter(|&(_, first)| first > 0.0).map(|(now, first)| now / first).fold(0.0, f64::max)
+    now.iter()
+        .zip(first)
+        .filter(|&(_, first)| first > 0.0)
+        .map(|(now, first)| now / first)
+        .fold(0.0, f64::max)
 }
 
 /// By node, the mean of what its patches have.

@@ -60,8 +60,13 @@ impl Interreflected {
     /// Irradiance at a place by gathering all patches, whether or not it is on a face \[W m⁻² nm⁻¹\].
     pub fn gathered(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
         let between = Between { occlude, attenuate: &*self.attenuate, mirrors: &self.mirrors };
-        let gather =
-            Gather { patches: &self.patches, between: &between, share: self.share, rays: self.rays, seed: place.seed };
+        let gather = Gather {
+            patches: &self.patches,
+            between: &between,
+            share: self.share,
+            rays: self.rays,
+            seed: place.seed,
+        };
         let point = Node::point(place.position.as_dvec3(), place.normal.as_dvec3());
         let receiver = Receiver { node: &point, name: place.seed, error: place.error };
         let mut sum = Spectrum::ZERO;

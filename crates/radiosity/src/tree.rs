@@ -52,7 +52,8 @@ impl Node {
     fn group(children: [u32; 2], parts: [&Self; 2]) -> Self {
         let area = parts[0].area + parts[1].area;
         let centre = (parts[0].centre * parts[0].area + parts[1].centre * parts[1].area) / area;
-        let normal = (parts[0].normal * parts[0].area + parts[1].normal * parts[1].area).normalize_or(DVec3::Y);
+        let normal =
+            (parts[0].normal * parts[0].area + parts[1].normal * parts[1].area).normalize_or(DVec3::Y);
         let radius = parts.map(|part| part.centre.distance(centre) + part.radius);
         let spread = parts.map(|part| normal.angle_between(part.normal) + part.spread);
         Self {
@@ -145,13 +146,15 @@ fn group(nodes: &mut [Node], order: &mut [u32], next: &mut u32) -> u32 {
     // Six numbers tell parts apart: where they are, and where they look, which counts as much as half the extent.
     let bounds = |value: &dyn Fn(&Node) -> DVec3, order: &[u32]| {
         let values = order.iter().map(|&i| value(&nodes[i as usize]));
-        let (low, high) = values.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let (low, high) =
+            values.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         high - low
     };
     let place = bounds(&|node| node.centre, order);
     let look = bounds(&|node| node.normal, order) * (0.5 * place.max_element());
     let widths = [place.to_array(), look.to_array()];
-    let widest = (1..6).fold(0, |best, k| if widths[k / 3][k % 3] > widths[best / 3][best % 3] { k } else { best });
+    let widest =
+        (1..6).fold(0, |best, k| if widths[k / 3][k % 3] > widths[best / 3][best % 3] { k } else { best });
     let key = |i: u32| {
         let node = &nodes[i as usize];
         [node.centre.to_array(), node.normal.to_array()][widest / 3][widest % 3]

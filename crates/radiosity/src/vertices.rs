@@ -76,7 +76,8 @@ fn joined(geometry: &Geometry, patches: &Patches) -> (Vec<[u32; 3]>, usize) {
             let smooth = shading_normal(geometry, &patch, at);
             // 0 and −0 are one place.
             let here = met.entry((at + DVec3::ZERO).to_array().map(f64::to_bits)).or_default();
-            let same = |&&(other, bent, _): &&(Vec3, Vec3, u32)| bent.dot(smooth) >= SMOOTH && other.dot(flat) > 0.0;
+            let same =
+                |&&(other, bent, _): &&(Vec3, Vec3, u32)| bent.dot(smooth) >= SMOOTH && other.dot(flat) > 0.0;
             if let Some(&(_, _, vertex)) = here.iter().find(same) {
                 return vertex;
             }

@@ -77,7 +77,8 @@ fn vector() -> impl Strategy<Value = DVec3> {
 }
 
 fn triangle() -> impl Strategy<Value = Corners> {
-    [vector(), vector(), vector()].prop_filter("has an area", |[a, b, c]| (*b - *a).cross(*c - *a).length() > 0.1)
+    [vector(), vector(), vector()]
+        .prop_filter("has an area", |[a, b, c]| (*b - *a).cross(*c - *a).length() > 0.1)
 }
 
 proptest! {

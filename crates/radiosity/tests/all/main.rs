@@ -1,6 +1,8 @@
 //! Interreflection against closed forms, a slow reference, its limits and laws.
 
 mod form_factors;
+mod mirrors;
 mod patches;
 mod rooms;
 mod solutions;
+mod stage;

@@ -45,13 +45,11 @@ fn no_more_patches_than_asked_for() {
 
 #[test]
 fn both_sides_count_unless_told_otherwise_and_mirrored_placements_keep_their_fronts() {
-    let mesh = Mesh {
-        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-        triangles: vec![[0, 1, 2]],
-        ..Mesh::default()
-    };
+    let mesh =
+        Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
     let placed = |scale| Instance { mesh: 0, world_from_mesh: DAffine3::from_scale(scale) };
-    let instances = vec![placed(DVec3::ONE), placed(DVec3::new(1.0, 1.0, -1.0)), placed(DVec3::new(-1.0, 1.0, 1.0))];
+    let instances =
+        vec![placed(DVec3::ONE), placed(DVec3::new(1.0, 1.0, -1.0)), placed(DVec3::new(-1.0, 1.0, 1.0))];
     let geometry = Geometry { meshes: vec![mesh], instances };
     let patches = Patches::new(&geometry, &grey, &Cut { edge: 9.0, ..Cut::default() });
     let found: Vec<_> = patches.iter().map(|patch| (patch.face[0], patch.side, patch.normal().z)).collect();
