@@ -175,7 +175,7 @@ impl Through {
 /// Form factor of a pair whose centres are `gap` radii of both apart, as cheaply as that allows.
 ///
 /// The middle alone leaves out terms of the second order, (1/gap)² of the pair's own F at most, three points those of the
-/// third; where both agree within `tolerance` the three are better than that.
+/// third; where both agree within ten times `tolerance` the three are taken to be within it.
 pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, tolerance: f64) -> f64 {
     let facing = Facing::new(from, to);
     let is_whole = from.iter().all(|&corner| (corner - to[0]).dot(facing.across) >= 0.0);
@@ -187,7 +187,7 @@ pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, toleranc
         return middle;
     }
     let three = facing.rule(from);
-    if (three - middle).abs() <= tolerance { three } else { form_factor(from, to, tolerance).share }
+    if (three - middle).abs() <= 10.0 * tolerance { three } else { form_factor(from, to, tolerance).share }
 }
 
 /// Distance in radii from which the middle is enough: (1/8)² is below the noise of some tried ways.

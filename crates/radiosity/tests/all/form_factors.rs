@@ -46,13 +46,13 @@ fn rectangles_are_those_of_the_catalogue() {
     for ([from, to], truth) in cases {
         let mut stated = 0.0;
         let share = between(from, to, |i, j| {
-            let found = form_factor(i, j, 1e-7);
+            let found = form_factor(i, j, 1e-6);
             stated += 0.5 * found.error;
             found.share
         });
         // What the last halving changed is more than what is left, by the rule's order.
         assert!((share - truth).abs() <= stated.max(1e-12), "{truth}: {share} within {stated}");
-        assert!(stated < 4e-7, "{truth}: {stated}");
+        assert!(stated < 4e-6, "{truth}: {stated}");
     }
 }
 
@@ -63,12 +63,12 @@ fn a_medium_takes_what_the_closed_quadrature_says() {
     for (extinction, truth) in cases {
         let mut stated = 0.0;
         let share = between(from, to, |i, j| {
-            let found = attenuated_form_factor(i, j, extinction, 1e-5);
+            let found = attenuated_form_factor(i, j, extinction, 1e-4);
             stated += 0.5 * found.error;
             found.share
         });
         assert!((share - truth).abs() <= stated, "{extinction}: {share} {truth} within {stated}");
-        assert!(stated < 8e-5, "{stated}");
+        assert!(stated < 8e-4, "{stated}");
     }
 }
 
@@ -82,7 +82,7 @@ fn triangle() -> impl Strategy<Value = Corners> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
 
     /// A_i F_ij = A_j F_ji, within the two errors stated; triangles may cut through each other's planes.
     #[test]
