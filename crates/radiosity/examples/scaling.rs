@@ -21,7 +21,7 @@ fn main() {
     println!(
         "patches  share rays | links  MB | link s  solve s (3 orders) | closure mean, least | E/(Φ/S(1−ρ)) converged"
     );
-    for edge in [1.1, 0.3, 0.12] {
+    for edge in [1.1, 0.38, 0.12] {
         let patches = Patches::new(&geometry, &Inside, &Cut { edge, ..Cut::default() });
         for share in [0.1, 0.05, 0.02] {
             if edge < 0.2 && share < 0.05 {

@@ -8,7 +8,7 @@ pub(crate) struct Balance {
     pub(crate) receive: Vec<f32>,
 }
 
-/// Rounds of the iteration; what is left after them is taken off everything, so that no light is made.
+/// Rounds of the iteration; what is too much after them is taken off where it arrives, so that no light is made.
 const ROUNDS: usize = 50;
 
 /// The iteration ends when no sum is off by more: ten roundings of f32.
@@ -43,12 +43,13 @@ impl Balance {
                 break;
             }
         }
-        // Columns are right now; rows that are too large make all of it smaller.
-        let over = (0..count).map(|i| factor(rows[i] * receive[i], aims[i])).fold(1.0, f64::max);
-        Self {
-            send: send.into_iter().map(|factor| factor as f32).collect(),
-            receive: receive.into_iter().map(|factor| (factor / over) as f32).collect(),
+        // Columns are right now; rows that are still too large are made smaller, which makes no column larger.
+        for (patch, receive) in receive.iter_mut().enumerate() {
+            *receive *= factor(aims[patch], rows[patch] * *receive).min(1.0);
         }
+        let [send, receive] =
+            [send, receive].map(|list| list.into_iter().map(|factor| factor as f32).collect());
+        Self { send, receive }
     }
 
     pub(crate) fn largest(&self) -> f64 {

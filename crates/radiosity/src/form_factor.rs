@@ -36,10 +36,13 @@ const MOST_HALVINGS: u32 = 22;
 /// assert!((there.share - form_factor(&above, &floor, 1e-6).share).abs() < 2e-6); // equal areas
 /// ```
 pub fn form_factor(from: &[DVec3; 3], to: &[DVec3; 3], tolerance: f64) -> FormFactor {
+    halved(from, to, tolerance, MOST_HALVINGS)
+}
+
+/// The same with no more than so many halvings.
+fn halved(from: &Corners, to: &Corners, tolerance: f64, most: u32) -> FormFactor {
     let facing = Facing::new(from, to);
-    over_front(from, to, |part| {
-        facing.refine(part, [facing.rule(part), f64::INFINITY], tolerance, MOST_HALVINGS)
-    })
+    over_front(from, to, |part| facing.refine(part, [facing.rule(part), f64::INFINITY], tolerance, most))
 }
 
 /// The same through a medium that leaves exp(−K r) of diffuse light after r metres (eq. 3.20): `extinction` K \[1/m\], ≥ 0.
@@ -85,7 +88,7 @@ impl<'a> Facing<'a> {
     }
 
     /// From one point; 0 from behind `to`.
-    fn from_point(&self, at: DVec3) -> f64 {
+    fn seen_from(&self, at: DVec3) -> f64 {
         if (at - self.to[0]).dot(self.across) > 0.0 {
             point_form_factor(at, self.normal, self.to)
         } else {
@@ -94,7 +97,7 @@ impl<'a> Facing<'a> {
     }
 
     fn rule(&self, from: &Corners) -> f64 {
-        triangle::three_points(from).iter().map(|&at| self.from_point(at)).sum::<f64>() / 3.0
+        triangle::three_points(from).iter().map(|&at| self.seen_from(at)).sum::<f64>() / 3.0
     }
 
     /// Mean over `from`, of which `whole` is a first guess, by which the halving before changed it.
@@ -180,15 +183,22 @@ pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, toleranc
     let facing = Facing::new(from, to);
     let is_whole = from.iter().all(|&corner| (corner - to[0]).dot(facing.across) >= 0.0);
     if !is_whole {
-        return form_factor(from, to, tolerance).share;
+        return halved(from, to, tolerance, FEW_HALVINGS).share;
     }
-    let middle = facing.from_point(triangle::centre(from));
+    let middle = facing.seen_from(triangle::centre(from));
     if gap > FAR {
         return middle;
     }
     let three = facing.rule(from);
-    if (three - middle).abs() <= 10.0 * tolerance { three } else { form_factor(from, to, tolerance).share }
+    if (three - middle).abs() <= 10.0 * tolerance {
+        three
+    } else {
+        halved(from, to, tolerance, FEW_HALVINGS).share
+    }
 }
 
 /// Distance in radii from which the middle is enough: (1/8)² is below the noise of some tried ways.
 const FAR: f64 = 8.0;
+
+/// Of pairs of patches: pieces of 1/32 of an edge, whatever their shape.
+const FEW_HALVINGS: u32 = 10;

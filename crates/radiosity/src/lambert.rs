@@ -53,8 +53,19 @@ pub fn point_form_factor(at: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
 fn edge(normal: DVec3, v: DVec3, w: DVec3) -> f64 {
     let cross = v.cross(w);
     let sine = cross.length();
-    // The angle over its sine is 1 for short edges, and well away from 0/0 while the sine is a number at all.
-    if sine > 0.0 { sine.atan2(v.dot(w)) * (normal.dot(cross) / sine) } else { 0.0 }
+    if sine > 0.0 { angle(sine, v.dot(w)) * (normal.dot(cross) / sine) } else { 0.0 }
+}
+
+/// atan2(sine, cosine) for sine > 0. Most edges are seen under small angles, for which the series to x¹⁷ is right to rounding:
+/// its next term is below (1/8)¹⁸/19 of the angle.
+fn angle(sine: f64, cosine: f64) -> f64 {
+    if 8.0 * sine > cosine {
+        return sine.atan2(cosine);
+    }
+    let x = sine / cosine;
+    let square = x * x;
+    let series = (0..=8).rev().fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 1) - square * sum);
+    x * series
 }
 
 #[cfg(test)]
@@ -85,6 +96,17 @@ mod tests {
             let f = point_form_factor(DVec3::ZERO, DVec3::X, &square(a, b, c));
             assert!((f - truth).abs() < ROUNDING, "{a} {b} {c}: {f}");
         }
+    }
+
+    #[test]
+    fn small_angles_are_right_to_rounding() {
+        for i in 0..2000 {
+            let x = 1e-9 * 1.01f64.powi(i);
+            let [sine, cosine] = [x.min(1e3), 1.0];
+            // Two roundings of either.
+            assert!((angle(sine, cosine) / sine.atan2(cosine) - 1.0).abs() < 4.0 * f64::EPSILON, "{x}");
+        }
+        assert_eq!(angle(1.0, -1.0), 1f64.atan2(-1.0));
     }
 
     #[test]

@@ -135,8 +135,7 @@ impl Patches {
                 for side in [Side::Front, Side::Back] {
                     let wound = (side == Side::Front) != flipped;
                     let corners = if wound { [a, b, c] } else { [a, c, b] };
-                    let size = triangle::cross(&corners).length_squared();
-                    if size > 0.0 && size.is_finite() && surfaces.takes_part(face, side) {
+                    if has_area(&corners) && surfaces.takes_part(face, side) {
                         sides.push((face, side, corners));
                     }
                 }
@@ -273,6 +272,13 @@ pub(crate) fn weights(corners: &Corners, at: DVec3) -> Option<[f64; 3]> {
     let v = v.clamp(0.0, 1.0);
     let w = w.clamp(0.0, 1.0 - v);
     Some([1.0 - v - w, v, w])
+}
+
+/// Whether a face is higher than what its corners' f32 coordinates may be off by: below that its normal means nothing.
+fn has_area(corners: &Corners) -> bool {
+    let longest = (0..3).map(|k| corners[k].distance(corners[(k + 1) % 3])).fold(0.0, f64::max);
+    let height = triangle::cross(corners).length() / longest;
+    height.is_finite() && height > 4.0 * f64::from(light::rounding::UNIT) * reach(corners)
 }
 
 fn is_long(corners: &Corners, edge: f64) -> bool {

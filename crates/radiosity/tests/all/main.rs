@@ -1,6 +1,7 @@
 //! Interreflection against closed forms, a slow reference, its limits and laws.
 
 mod form_factors;
+mod groups;
 mod mirrors;
 mod patches;
 mod rooms;

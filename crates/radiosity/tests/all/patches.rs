@@ -67,10 +67,11 @@ fn nothing_broken_becomes_a_patch() {
     let placed = |mesh| Instance { mesh, world_from_mesh: DAffine3::IDENTITY };
     let meshes = vec![
         mesh(vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0]),
+        mesh(vec![Vec3::X, Vec3::X * 2.0, Vec3::new(3.0, 1e-9, 0.0)]),
         mesh(vec![Vec3::NAN, Vec3::X, Vec3::Y]),
         mesh(vec![Vec3::INFINITY, Vec3::X, Vec3::Y]),
     ];
-    let geometry = Geometry { meshes, instances: (0..3).map(placed).collect() };
+    let geometry = Geometry { meshes, instances: (0..4).map(placed).collect() };
     for edge in [0.5, 0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(Patches::new(&geometry, &grey, &Cut { edge, most: 10 }).is_empty());
         let room = Room::empty(Vec3::ONE);

@@ -47,7 +47,7 @@ fn a_furnace_looks_alike_everywhere() {
         let solution =
             solve(&patches, &links, &Source { emitted: &emitted, direct: &[] }, Orders::Until(1e-6));
         let truth = 2.0 / (1.0 - reflectance);
-        // Sums of shares are balanced to 1e-6 or better than what takes all light down alike; errors add up as reflections do.
+        // Sums of shares are balanced to 1e-6, less after all rounds where that is slow; errors add up as reflections do.
         let bound = 1e-4 / (1.0 - reflectance);
         for (patch, irradiance) in solution.irradiance.iter().enumerate() {
             let radiosity = 2.0 + reflectance * irradiance[0];
@@ -136,12 +136,12 @@ fn threads_do_not_change_a_bit() {
 #[test]
 fn links_fit_what_they_may_take() {
     let room = Room::furnished();
-    let patches = room.patches(1.0, 0.6);
-    let free = linked(&patches, &room.boxes, 0.01);
-    let most = free.len() / 2;
-    let linking = Linking { share: 0.01, most, ..Linking::default() };
+    let patches = room.patches(1.6, 0.6);
+    let free = linked(&patches, &room.boxes, 0.02);
+    let most = free.len() * 9 / 10;
+    let linking = Linking { share: 0.02, most, ..Linking::default() };
     let held = Links::new(&patches, &Between::dry(&room.boxes), &linking);
-    assert!(held.len() <= most && held.share() > 0.01);
+    assert!(held.len() <= most && held.share() > 0.02);
     assert!(held.bytes() < free.bytes());
 }
 
