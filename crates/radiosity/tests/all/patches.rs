@@ -1,8 +1,8 @@
 //! Patches: areas, order, limits, corners.
 
 use glam::{DAffine3, DVec3, Vec3};
-use keikan_radiosity::{Cut, Patch, Patches, Side};
-use light::{Geometry, Instance, Mesh, Spectrum};
+use keikan_radiosity::{Cut, Patch, Patches, Side, direct};
+use light::{Geometry, Instance, Mesh, Spectrum, Uniform};
 
 use crate::rooms::{Painted, Room, surface};
 
@@ -79,6 +79,18 @@ fn nothing_broken_becomes_a_patch() {
         assert!((24..=100).contains(&patches.len()), "{edge}: {}", patches.len());
     }
     assert!(Patches::new(&Geometry::default(), &grey, &Cut::default()).is_empty());
+}
+
+#[test]
+fn a_uniform_light_gives_pi_everywhere() {
+    let room = Room::furnished();
+    let patches = room.patches(1.0, 0.5);
+    let sky = Uniform { radiance: Spectrum::ONE };
+    let found = direct(&patches, &[&sky, &sky], &room.boxes);
+    assert_eq!(found.len(), patches.len());
+    // A mean of three, of two each, in f32.
+    let is_two_pi = |e: &Spectrum| (e[0] / (2.0 * std::f32::consts::PI) - 1.0).abs() < 8.0 * f32::EPSILON;
+    assert!(found.iter().all(is_two_pi));
 }
 
 #[test]

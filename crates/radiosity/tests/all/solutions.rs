@@ -98,7 +98,9 @@ fn orders_add_up_to_all_light() {
 
 #[test]
 fn links_agree_with_the_slow_reference() {
-    let cases = [(Room::empty(Vec3::new(4.0, 3.0, 5.0)), [0.05, 0.005]), (Room::furnished(), [0.06, 0.03])];
+    let cases =
+        [(Room::empty(Vec3::new(4.0, 3.0, 5.0)), [0.013, 0.0035]), (Room::furnished(), [0.011, 0.007])];
+    // As measured, 0.6 and 0.2 % in the empty room, 0.5 and 0.4 % with boxes, where both are off by the ways they try; twice that.
     for (room, bounds) in cases {
         let patches = room.patches(1.6, 0.6);
         let direct = one_corner(&patches, room.size.y);
@@ -113,7 +115,6 @@ fn links_agree_with_the_slow_reference() {
             let square = |(a, b): (&Spectrum, &[f64; 8])| (f64::from(a[0]) - b[0]).powi(2);
             let sum: f64 = found.iter().zip(&truth).map(square).sum();
             let off = (sum / truth.len() as f64).sqrt() / mean;
-            println!("{} patches, share {share}: {} links, rms {off:.5}", patches.len(), links.len());
             assert!(off < bound, "share {share}: {off}");
         }
     }

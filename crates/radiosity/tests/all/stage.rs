@@ -71,7 +71,6 @@ fn interpolation_and_gathering_agree() {
         }
         let mean = sum / (counts[0] + counts[1]);
         let [edges, open] = [0, 1].map(|k| (squares[k] / counts[k]).sqrt() / mean);
-        println!("edge {edge}: rms {edges:.4} near edges, {open:.4} elsewhere");
         // As measured, with a margin of a half: 2.5 and 2.3 % of the mean where walls meet, whose light bends without a bound
         // there; 0.9 and 0.7 % elsewhere, most of it what links of 0.02 leave.
         let bounds = if edge > 0.5 { [0.04, 0.014] } else { [0.035, 0.011] };
