@@ -17,7 +17,7 @@ const POINTS: [[f32; 2]; 8] = [
     [0.591_717_3, 0.181_341_9],
     [0.762_766_2, 0.156_853_32],
     [0.898_333_25, 0.111_190_52],
-    [0.980_144_93, 0.050_614_27],
+    [0.980_144_9, 0.050_614_27],
 ];
 
 /// Water between things: what the eye sees through it is dimmed by e^(−c r), and light scattered once is added (3.26, 3.28):
