@@ -48,7 +48,12 @@ impl Rays {
 
     /// Σ E · kernel(towards where it comes from) over all rays, each with the loss of its way down to `depth` but for
     /// e^(−K z), which they have in common.
-    pub(crate) fn sum(&self, depth: f64, coefficient: Spectrum, kernel: impl Fn(Vec3) -> Spectrum) -> Spectrum {
+    pub(crate) fn sum(
+        &self,
+        depth: f64,
+        coefficient: Spectrum,
+        kernel: impl Fn(Vec3) -> Spectrum,
+    ) -> Spectrum {
         let ring = |ring: &Ring| {
             let inner: Spectrum = ring.rays.iter().map(|&(toward, facing)| facing * kernel(toward)).sum();
             inner * coefficient.attenuate((depth * (ring.sec - 1.0)) as f32)

@@ -25,7 +25,8 @@ impl SkyBelow {
     /// takes `coefficient` \[1/m\]: K = a + b_b of [`crate::Loss::Diffuse`] for what lights things. Takes some 0.1 s.
     pub fn new(surface: &Surface, coefficient: Spectrum, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
         let rays = Rays::new(surface, radiance);
-        let table = Table::new(&rays, coefficient, |normal, toward| Spectrum::splat(normal.dot(toward).max(0.0)));
+        let table =
+            Table::new(&rays, coefficient, |normal, toward| Spectrum::splat(normal.dot(toward).max(0.0)));
         Self { rays, coefficient, table }
     }
 

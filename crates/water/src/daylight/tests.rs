@@ -77,11 +77,31 @@ fn skies_arrive_as_tabulated() {
     // Per horizontal irradiance in air at optical depths 0, 1 and 5: downward plane and scalar irradiance; six decimals.
     type Row = (&'static str, Box<dyn Fn(Vec3) -> f64>, f64, [[f64; 3]; 2]);
     let skies: [Row; 4] = [
-        ("uniform", Box::new(|_| 1.0), 1e-5, [[0.932489, 0.286199, 0.002959], [1.109650, 0.335587, 0.003306]]),
-        ("overcast", Box::new(|d| f64::from(1.0 + 2.0 * d.y)), 1e-5, [[0.947766, 0.297915, 0.003310], [1.104083, 0.342572, 0.003653]]),
+        (
+            "uniform",
+            Box::new(|_| 1.0),
+            1e-5,
+            [[0.932489, 0.286199, 0.002959], [1.109650, 0.335587, 0.003306]],
+        ),
+        (
+            "overcast",
+            Box::new(|d| f64::from(1.0 + 2.0 * d.y)),
+            1e-5,
+            [[0.947766, 0.297915, 0.003310], [1.104083, 0.342572, 0.003653]],
+        ),
         // Kronrod's rings and 10° of azimuth do not resolve the cusp 10 e^(−3γ) around the sun.
-        ("clear 30", Box::new(|d| clear(d, 30.0)), 5e-4, [[0.903288, 0.263402, 0.002275], [1.121662, 0.322142, 0.002629]]),
-        ("clear 60", Box::new(|d| clear(d, 60.0)), 5e-4, [[0.930923, 0.287966, 0.003064], [1.100567, 0.335395, 0.003405]]),
+        (
+            "clear 30",
+            Box::new(|d| clear(d, 30.0)),
+            5e-4,
+            [[0.903288, 0.263402, 0.002275], [1.121662, 0.322142, 0.002629]],
+        ),
+        (
+            "clear 60",
+            Box::new(|d| clear(d, 60.0)),
+            5e-4,
+            [[0.930923, 0.287966, 0.003064], [1.100567, 0.335395, 0.003405]],
+        ),
     ];
     for (name, sky, tolerance, [plane, scalar]) in skies {
         let below = SkyBelow::new(&WATER, Spectrum::ONE, |d| Spectrum::splat(sky(d) as f32));
@@ -123,7 +143,8 @@ fn the_table_is_as_good_as_its_rays() {
     let mut worst = 0.0f32;
     for i in 0..400u32 {
         // Directions and depths that are none of the table's.
-        let (u, v, w) = (f64::from(i) / 400.0, f64::from(i) * 0.618_034 % 1.0, f64::from(i) * 0.754_877 % 1.0);
+        let (u, v, w) =
+            (f64::from(i) / 400.0, f64::from(i) * 0.618_034 % 1.0, f64::from(i) * 0.754_877 % 1.0);
         let (sin, cos) = (1.0 - 2.0 * u).acos().sin_cos();
         let normal = DVec3::new(sin * (2.0 * PI * v).cos(), cos, sin * (2.0 * PI * v).sin()).as_vec3();
         let depth = 20.0 * w * w;

@@ -32,19 +32,32 @@ mod tests {
 
     #[test]
     fn closed_forms_are_what_they_integrate() {
-        for (start, rate, length) in [(0.0, 1.0, 2.0), (3.0, -1.0, 3.0), (0.5, 1e-12, 7.0), (0.0, 0.0, 5.0), (0.1, 40.0, 9.0)] {
+        for (start, rate, length) in
+            [(0.0, 1.0, 2.0), (3.0, -1.0, 3.0), (0.5, 1e-12, 7.0), (0.0, 0.0, 5.0), (0.1, 40.0, 9.0)]
+        {
             // Simpson with 20 000 intervals: (h rate)⁴ · length/180 · f, below 1e-11 for the steepest.
             let steps = 20_000;
             let h = length / f64::from(steps);
             let sum = |f: &dyn Fn(f64) -> f64| {
-                let weight = |i| if i == 0 || i == steps { 1.0 } else if i % 2 == 1 { 4.0 } else { 2.0 };
+                let weight = |i| {
+                    if i == 0 || i == steps {
+                        1.0
+                    } else if i % 2 == 1 {
+                        4.0
+                    } else {
+                        2.0
+                    }
+                };
                 (0..=steps).map(|i| weight(i) * f(f64::from(i) * h)).sum::<f64>() * h / 3.0
             };
             let plain = sum(&|r| (-start - rate * r).exp());
             assert!((fading(start, rate, length) / plain - 1.0).abs() < 1e-9, "{start} {rate} {length}");
             if rate >= 0.0 {
                 let sloped = sum(&|r| (2.0 - 1.5 * r / length) * (-rate * r).exp());
-                assert!((fading_slope(2.0, 0.5, rate, length) / sloped - 1.0).abs() < 1e-9, "{rate} {length}");
+                assert!(
+                    (fading_slope(2.0, 0.5, rate, length) / sloped - 1.0).abs() < 1e-9,
+                    "{rate} {length}"
+                );
             }
         }
         // Both sides of the switch to the series.

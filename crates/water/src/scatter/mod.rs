@@ -22,7 +22,7 @@ use light::Spectrum;
 
 pub use lamp::{LAMP_TOLERANCE, Light};
 pub use sky::ScatteredSky;
-pub use steps::{Steps, Stepped};
+pub use steps::{Stepped, Steps};
 pub use sun::lit_intervals;
 
 use crate::{Loss, Surface, Water};

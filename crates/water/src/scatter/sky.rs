@@ -76,7 +76,8 @@ impl ScatteredSky {
         let deepest = self.table.depths().last().copied().unwrap_or(0.0);
         let length = length.min(1e3 * (deepest + 1.0));
         let crossing = |depth: &f64| (depth - first) / down;
-        let mut ends: Vec<f64> = self.table.depths().iter().map(crossing).filter(|r| *r > 0.0 && *r < length).collect();
+        let mut ends: Vec<f64> =
+            self.table.depths().iter().map(crossing).filter(|r| *r > 0.0 && *r < length).collect();
         ends.push(length);
         ends.sort_by(f64::total_cmp);
         ends

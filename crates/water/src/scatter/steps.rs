@@ -35,7 +35,14 @@ impl Scattering {
     ///
     /// from the point nearest to the luminaire's `axis` both ways (from the surface down for one in air), until light gets less with every
     /// step and is negligible. There is no bound on the error; [`Scattering::lamp`] has one.
-    pub fn lamp_by_steps(&self, at: DVec3, axis: DVec3, light: &Light, ray: &ViewRay, steps: &Steps) -> Stepped {
+    pub fn lamp_by_steps(
+        &self,
+        at: DVec3,
+        axis: DVec3,
+        light: &Light,
+        ray: &ViewRay,
+        steps: &Steps,
+    ) -> Stepped {
         let below = self.surface.is_below(at);
         let ways: &[Way] = if below { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
         let start = if below { nearest_to_axis(at, axis, ray) } else { 0.0 };
@@ -94,6 +101,7 @@ fn nearest_to_axis(at: DVec3, axis: DVec3, ray: &ViewRay) -> f64 {
     let way = at - ray.from;
     let way = way - axis * way.dot(axis);
     let length2 = across.length_squared();
-    let nearest = if length2 > 1e-18 { way.dot(across) / length2 } else { (at - ray.from).dot(ray.direction) };
+    let nearest =
+        if length2 > 1e-18 { way.dot(across) / length2 } else { (at - ray.from).dot(ray.direction) };
     nearest.clamp(0.0, ray.length)
 }

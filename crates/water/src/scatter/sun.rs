@@ -44,8 +44,11 @@ impl Scattering {
 /// What `shadows` (shares of the ray's length, as [`light::Occlude::shadows`] tells) leave of a ray of `length` \[m\]: rising
 /// stretches from and to \[m\]. Only dark stretches count; what is merely dimmed is for the caller.
 pub fn lit_intervals(shadows: &[Stretch], length: f64) -> Vec<[f64; 2]> {
-    let mut dark: Vec<[f64; 2]> =
-        shadows.iter().filter(|s| s.dark && s.from < s.to).map(|s| [s.from * length, s.to * length]).collect();
+    let mut dark: Vec<[f64; 2]> = shadows
+        .iter()
+        .filter(|s| s.dark && s.from < s.to)
+        .map(|s| [s.from * length, s.to * length])
+        .collect();
     dark.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let (mut lit, mut from) = (Vec::new(), 0.0);
     for [start, end] in dark {

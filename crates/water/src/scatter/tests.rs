@@ -43,10 +43,79 @@ fn single_scattering_is_b1_and_c1() {
     println!("single scattering: worst deviation from the table {worst:.1e} (Petzold's norm is 6e-3 of it)");
 }
 
+/// Nadir radiance upwards in endless water, sun at 60° in air with E = 1 facing it, n = 1.34, c = 1 1/m: problems 1 (molecules) and 2
+/// (Petzold) of Mobley et al. 1993 by Monte Carlo, within the spread of the published models.
+const MOBLEY: [(bool, f32, [f64; 4]); 4] = [
+    (true, 0.2, [5.6885e-3, 1.6768e-3, 1.2673e-5, 3.4542e-8]),
+    (true, 0.9, [8.2570e-2, 4.8687e-2, 5.7575e-3, 4.1753e-4]),
+    (false, 0.2, [1.5972e-4, 5.4980e-5, 7.8051e-7, 4.5158e-9]),
+    (false, 0.9, [8.0790e-3, 7.0708e-3, 3.2563e-3, 1.0976e-3]),
+];
+
+/// At optical depths 0, 1, 5 and 10, over the truth.
+fn against_mobley(molecules: bool, albedo: f32, truth: [f64; 4], factor: bool) -> [f64; 4] {
+    let phase = if molecules { Phase::morel() } else { Phase::petzold() };
+    let scattering = grey(albedo, phase, Loss::Diffuse);
+    let sun = sun_at(&scattering, 60.0);
+    let more = if factor { scattering.multiple(sun.toward, DVec3::NEG_Y)[0] } else { 1.0 };
+    let mut depth = [0.0, 1.0, 5.0, 10.0].into_iter();
+    truth.map(|truth| {
+        let from = DVec3::NEG_Y * depth.next().unwrap_or(0.0);
+        let ray = ViewRay { from, ..down(f64::INFINITY) };
+        f64::from(scattering.sun(&sun, &ray, &[[0.0, f64::INFINITY]])[0] * more) / truth
+    })
+}
+
+#[test]
+fn multiple_scattering_is_made_good_under_the_surface() {
+    for (molecules, albedo, truth) in MOBLEY {
+        let [once, often] = [false, true].map(|factor| against_mobley(molecules, albedo, truth, factor));
+        println!(
+            "molecules {molecules}, albedo {albedo}: scattered once {once:.3?}, with the factor {often:.3?}"
+        );
+        // The fit's own scatter is 6 % (root mean square).
+        assert!((often[0] - 1.0).abs() < 0.06, "{often:?}");
+        assert!((often[1] - 1.0).abs() < 0.3, "at one optical depth the loss is off too: {often:?}");
+        // What scattering once leaves out, as is stated.
+        let stated = if albedo < 0.5 {
+            0.95..0.98
+        } else if molecules {
+            0.48..0.50
+        } else {
+            0.58..0.61
+        };
+        assert!(stated.contains(&once[0]), "{once:?}");
+    }
+}
+
+/// Downward irradiance below the sun at 60° at one optical depth: what is lost of it is K, not c.
+#[test]
+fn irradiance_is_lost_with_k() {
+    for (molecules, albedo, truth, [least, most]) in [
+        (true, 0.2, 0.14146, [1.0, 1.05]),
+        (false, 0.2, 0.16212, [0.99, 1.03]),
+        (false, 0.9, 0.41352, [0.95, 1.0]),
+        // Light that the surface sends back down is missing.
+        (true, 0.9, 0.36591, [0.6, 0.65]),
+    ] {
+        let phase = if molecules { Phase::morel() } else { Phase::petzold() };
+        let [beam, diffuse] = [Loss::Beam, Loss::Diffuse].map(|loss| {
+            let scattering = grey(albedo, phase.clone(), loss);
+            let sun = sun_at(&scattering, 60.0);
+            f64::from(sun.on_plane(1.0, DVec3::Y, scattering.coefficient())[0]) / truth
+        });
+        println!("E_d at one optical depth over the truth: {beam:.3} with c, {diffuse:.3} with K");
+        assert!((least..most).contains(&diffuse) && (beam - 1.0).abs() > (diffuse - 1.0).abs());
+    }
+}
+
 #[test]
 fn shadows_leave_what_they_do_not_cover() {
     let dark = |from, to| Stretch { from, to, dark: true };
-    let lit = lit_intervals(&[dark(0.5, 0.6), dark(0.1, 0.2), dark(0.55, 0.7), Stretch { dark: false, ..dark(0.8, 0.9) }], 10.0);
+    let lit = lit_intervals(
+        &[dark(0.5, 0.6), dark(0.1, 0.2), dark(0.55, 0.7), Stretch { dark: false, ..dark(0.8, 0.9) }],
+        10.0,
+    );
     assert_eq!(lit, [[0.0, 1.0], [2.0, 5.0], [7.0, 10.0]]);
     assert!(lit_intervals(&[dark(0.0, 1.0)], 10.0).is_empty());
     let scattering = grey(0.5, Phase::petzold(), Loss::Diffuse);
@@ -66,7 +135,8 @@ fn shadows_leave_what_they_do_not_cover() {
             sun.facing(-up.at(r).y, k) * k.attenuate(r as f32)
         })
         .sum();
-    let sum = sum * scattering.water().volume_scattering(sun.toward.dot(up.direction)) * (11.0 / steps as f32);
+    let sum =
+        sum * scattering.water().volume_scattering(sun.toward.dot(up.direction)) * (11.0 / steps as f32);
     // f32 sums of 20 000.
     assert!((sum[0] / closed[0] - 1.0).abs() < 1e-4, "{} {}", sum[0], closed[0]);
 }
@@ -126,15 +196,23 @@ fn by_midpoints(scattering: &Scattering, at: DVec3, ray: &ViewRay, steps: u32) -
 fn lamps_scatter_to_the_stated_error() {
     let scattering = Scattering::new(Water::named("jerlov-3C").unwrap(), 0.0, Loss::Diffuse);
     let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::new(0.6, -0.8, 0.0), length: 8.0 };
-    for at in [DVec3::new(2.0, -3.0, 0.2), DVec3::new(2.0, -1.0, 1.0), DVec3::new(1.0, 2.0, 0.5), DVec3::new(0.0, 0.05, 0.0)] {
+    for at in [
+        DVec3::new(2.0, -3.0, 0.2),
+        DVec3::new(2.0, -1.0, 1.0),
+        DVec3::new(1.0, 2.0, 0.5),
+        DVec3::new(0.0, 0.05, 0.0),
+    ] {
         let reference = by_midpoints(&scattering, at, &ray, 40_000);
         let fine = scattering.lamp(at, &even, &ray, &[], FINE);
         let draft = scattering.lamp(at, &even, &ray, &[], LAMP_TOLERANCE);
         // Midpoints of 2e-4 m next to a lamp 0.05 m away: h²/24 · 6/d² = 4e-6; f32 noise and 1e-5 asked for.
         assert!((fine.value[2] / reference - 1.0).abs() < 3e-5, "{at}: {} {reference}", fine.value[2]);
         let largest = fine.value.iter().fold(0.0f64, |a, b| a.max(*b));
-        assert!((draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-3 * largest, "two ways of 1e-3 each: {at}");
-        assert!(draft.error <= 2e-3 * largest && draft.evaluations < 600, "{at}: {draft:?}");
+        assert!(
+            (draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-2 * largest,
+            "two ways of 1e-2 each: {at}"
+        );
+        assert!(draft.error <= 2e-2 * largest && draft.evaluations < 300, "{at}: {draft:?}");
     }
 }
 
@@ -147,7 +225,12 @@ fn fine_steps_of_the_thesis_find_the_same() {
         let steps = Steps { longest: 2e-3, shortest: 2e-3, reference: 1.0, negligible: 0.0 };
         let walked = scattering.lamp_by_steps(at, DVec3::X, &even, &ray, &steps);
         // Trapezoids of 2 mm next to a lamp half a metre away: h²/12 · 6/d² ≈ 1e-5, and the error asked of the other.
-        assert!((walked.radiance[3] / exact.value[3] - 1.0).abs() < 3e-5, "{at}: {} {}", walked.radiance[3], exact.value[3]);
+        assert!(
+            (walked.radiance[3] / exact.value[3] - 1.0).abs() < 3e-5,
+            "{at}: {} {}",
+            walked.radiance[3],
+            exact.value[3]
+        );
         assert!(walked.evaluations > 3000);
     }
 }
@@ -196,7 +279,7 @@ proptest! {
         let at = DVec3::new(x, y, z);
         let [rough, fine] = [LAMP_TOLERANCE, FINE].map(|t| scattering.lamp(at, &even, &ray, &[], t));
         prop_assert!(fine.value[0].is_finite() && fine.value[0] >= 0.0);
-        // Either way of light has a thousandth of its own; f32 noise of what underflows.
-        prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-3 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
+        // Either way of light has a hundredth of its own; f32 noise of what underflows.
+        prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-2 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
     }
 }
