@@ -88,24 +88,33 @@ fn multiple_scattering_is_made_good_under_the_surface() {
     }
 }
 
-/// Downward irradiance below the sun at 60° at one optical depth: what is lost of it is K, not c.
+/// Downward irradiance below the sun at 60° at optical depths 1, 5 and 10, of the same four waters: over the truth, with c, with K = a + b_b, by
+/// Kirk.
 #[test]
-fn irradiance_is_lost_with_k() {
-    for (molecules, albedo, truth, [least, most]) in [
-        (true, 0.2, 0.14146, [1.0, 1.05]),
-        (false, 0.2, 0.16212, [0.99, 1.03]),
-        (false, 0.9, 0.41352, [0.95, 1.0]),
-        // Light that the surface sends back down is missing.
-        (true, 0.9, 0.36591, [0.6, 0.65]),
-    ] {
+fn irradiance_is_not_lost_with_c() {
+    let truths = [
+        [1.4146e-1, 1.0601e-3, 2.8811e-6],
+        [3.6591e-1, 4.3229e-2, 3.1378e-3],
+        [1.6212e-1, 2.2804e-3, 1.3074e-5],
+        [4.1352e-1, 1.8800e-1, 6.9279e-2],
+    ];
+    for ((molecules, albedo, _), truth) in MOBLEY.into_iter().zip(truths) {
         let phase = if molecules { Phase::morel() } else { Phase::petzold() };
-        let [beam, diffuse] = [Loss::Beam, Loss::Diffuse].map(|loss| {
-            let scattering = grey(albedo, phase.clone(), loss);
-            let sun = sun_at(&scattering, 60.0);
-            f64::from(sun.on_plane(1.0, DVec3::Y, scattering.coefficient())[0]) / truth
-        });
-        println!("E_d at one optical depth over the truth: {beam:.3} with c, {diffuse:.3} with K");
-        assert!((least..most).contains(&diffuse) && (beam - 1.0).abs() > (diffuse - 1.0).abs());
+        let scattering = grey(albedo, phase, Loss::Beam);
+        let (sun, water) = (sun_at(&scattering, 60.0), scattering.water());
+        let [beam, diffuse, kirk] =
+            [water.extinction(), water.diffuse(), water.downward(sun.toward.y)].map(|k| {
+                let at = |depth| f64::from(sun.on_plane(depth, DVec3::Y, k)[0]);
+                [at(1.0) / truth[0], at(5.0) / truth[1], at(10.0) / truth[2]]
+            });
+        println!(
+            "E_d, molecules {molecules}, albedo {albedo}: c {beam:.3?}, a + b_b {diffuse:.3?}, Kirk {kirk:.3?}"
+        );
+        for i in 0..3 {
+            // Worst where molecules scatter most: a quarter of the light has come back from the surface.
+            assert!((0.65..1.05).contains(&kirk[i]), "{kirk:?}");
+            assert!((beam[i] - 1.0).abs() > (diffuse[i] - 1.0).abs().min((kirk[i] - 1.0).abs()));
+        }
     }
 }
 
