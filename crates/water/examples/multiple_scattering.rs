@@ -122,8 +122,9 @@ fn main() {
                 let truth = upward(&phase, albedo, sun, &toward, photons, 1);
                 for ((view, ways), [mean, error]) in views.iter().zip(&toward).zip(truth) {
                     let diffuse = 1.0 - albedo * (1.0 - phase.backscattered());
-                    let once = albedo * phase.value(-sun.dot(*ways)) / ((sun.y + ways.y) * diffuse);
-                    let factor = multiple::factor(albedo, phase.backscattered(), sun.y, ways.y);
+                    let sideways = phase.value(-sun.dot(*ways));
+                    let once = albedo * sideways / ((sun.y + ways.y) * diffuse);
+                    let factor = multiple::factor(albedo, phase.backscattered(), sideways);
                     println!(
                         "{share:4} {albedo:5} {zenith:4} {:4} {:4} {mean:.5e} {error:.1e} {once:.5e} {:.3} {:.3}",
                         view.0,

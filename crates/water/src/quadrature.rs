@@ -46,7 +46,7 @@ const KRONROD: [f64; 8] = [
 ];
 /// Gauss' weights of the nodes 1, 3, 5 and 7.
 const GAUSS: [f64; 4] =
-    [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_93, 0.417_959_183_673_469_4];
+    [0.129_484_966_168_869_7, 0.279_705_391_489_276_7, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
 /// Kronrod's 15 points on \[0, 1\] with weights of sum 1, for smooth integrands that are asked once: exact to degree 22.
 pub(crate) fn points() -> [(f64, f64); 15] {

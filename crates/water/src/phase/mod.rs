@@ -105,8 +105,8 @@ impl Phase {
     }
 
     /// Petzold's measurements (1972) of three waters, less molecular scattering, on average (Mobley, *Light and Water*,
-    /// table 3.10): linear in the logarithms between the measured angles, ∝ θ^−1.346 below 0.1°. The table's integral is
-    /// 0.994; here it is made 1.
+    /// table 3.10): cubic in the logarithms between the measured angles, ∝ θ^−1.346 below 0.1°. The table's integral is
+    /// 0.995 (0.994 if linear in the logarithms); here it is made 1.
     pub fn petzold() -> Self {
         Self::normalised(Shape::Petzold)
     }
@@ -144,7 +144,8 @@ impl Phase {
     /// Several at once, each with its share of b; the shares need not sum to 1.
     pub fn mixture(parts: Vec<(f64, Self)>) -> Result<Self, PhaseError> {
         let whole: f64 = parts.iter().map(|part| part.0).sum();
-        if !parts.iter().all(|part| part.0 >= 0.0) || !(whole > 0.0 && whole.is_finite()) {
+        let sound = parts.iter().all(|part| part.0 >= 0.0) && whole > 0.0 && whole.is_finite();
+        if !sound {
             return Err(PhaseError::Shares);
         }
         let parts: Vec<_> = parts.into_iter().map(|(share, phase)| (share / whole, phase)).collect();

@@ -1,6 +1,7 @@
 //! What a water does to light: absorption, scattering, index.
 
 mod chlorophyll;
+mod downward;
 mod error;
 mod index;
 mod measured;

@@ -8,8 +8,9 @@ use super::{Scattering, ViewRay};
 use crate::path::{Leg, Paths, Way};
 use crate::quadrature::{Integral, Tolerance, integrate};
 
-/// A thousandth, in a few dozen evaluations: what a picture shows.
-pub const LAMP_TOLERANCE: Tolerance = Tolerance { absolute: 0.0, relative: 1e-3, evaluations: 3000 };
+/// A hundredth, which is kept with room to spare: past lamps 5 cm to 3 m away the example `scatter_cost` finds errors of 0.1 % at worst
+/// for 75 points on each way of light, of 0.003 % for 34 from lamps in air.
+pub const LAMP_TOLERANCE: Tolerance = Tolerance { absolute: 0.0, relative: 1e-2, evaluations: 3000 };
 
 /// View rays pass luminaires at least this far away \[m\]: at 0 the scattered radiance has no bound.
 const CLOSEST: f64 = 1e-4;
@@ -21,9 +22,9 @@ impl Scattering {
     /// Radiance at P of a luminaire's light scattered along `ray` \[W m⁻² sr⁻¹ nm⁻¹\]: direct and mirrored at the underside from
     /// under water, refracted from air, each integrated by itself.
     ///
-    /// With D the least distance of the ray from the luminaire (or its mirror image), at r₀, the variable is φ = atan((r − r₀)/D):
-    /// dr/d² = dφ/D, which removes the peak (Kulla and Fajardo 2012), and Gauss–Kronrod halves what is left until `tolerance` is
-    /// met. Shadows that cut the ray are found by halving: give their ends as `breaks` \[m\] where they are known.
+    /// With D the least distance of the ray from the luminaire (or its mirror image), at r₀, Θ = atan2(D, r₀ − r) is the scattering angle
+    /// itself and dr/d² = dΘ/D, which removes the peak of 1/d² (Kulla and Fajardo 2012). The variable is ln Θ, over which the forward peak of β
+    /// is wide, and Gauss–Kronrod halves what is left until `tolerance` is met. Shadows that cut the ray are found by halving: give their ends as `breaks` \[m\] where they are known.
     pub fn lamp(
         &self,
         at: DVec3,
@@ -57,16 +58,37 @@ impl Scattering {
         };
         let nearest = (centre - ray.from).dot(ray.direction);
         let closest = (centre - ray.at(nearest)).length().max(CLOSEST);
-        let angle = |r: f64| ((r - nearest) / closest).atan();
-        let mut angles: Vec<f64> =
-            breaks.iter().filter(|r| **r > 0.0 && **r < ray.length).map(|&r| angle(r)).collect();
+        let angle = |r: f64| closest.atan2(nearest - r).ln();
+        let total = if way == Way::Mirrored { self.total_reflection(at, ray) } else { [f64::NAN; 2] };
+        let mut angles: Vec<f64> = breaks
+            .iter()
+            .chain(&total)
+            .filter(|r| **r > 0.0 && **r < ray.length)
+            .map(|&r| angle(r))
+            .collect();
         angles.extend([angle(0.0), angle(ray.length)]);
         angles.sort_by(f64::total_cmp);
-        integrate(&angles, tolerance, |phi| {
-            let tan = phi.tan();
-            let radiance = self.per_metre(way, at, light, ray, nearest + closest * tan);
-            radiance.0.map(|band| f64::from(band) * closest * (1.0 + tan * tan))
+        integrate(&angles, tolerance, |log| {
+            let angle = log.exp();
+            let (sin, cos) = angle.sin_cos();
+            let radiance = self.per_metre(way, at, light, ray, nearest - closest * cos / sin);
+            radiance.0.map(|band| f64::from(band) * closest * angle / (sin * sin))
         })
+    }
+
+    /// Where along the ray light mirrored at the underside begins or ceases to be mirrored whole, a kink: the points within the ray that lie
+    /// at the critical angle, |across| = (h₁ + h₂)/√(n² − 1). NaN for none.
+    fn total_reflection(&self, at: DVec3, ray: &ViewRay) -> [f64; 2] {
+        let n = self.surface.index;
+        let tan2 = 1.0 / ((n - 1.0) * (n + 1.0));
+        let (way, u) = (ray.from - at, ray.direction);
+        let deep = (self.surface.level - at.y) + (self.surface.level - ray.from.y);
+        // a r² + 2 b r + c = 0 of across² − tan² (h₁ + h₂)².
+        let a = u.x * u.x + u.z * u.z - tan2 * u.y * u.y;
+        let b = way.x * u.x + way.z * u.z + tan2 * deep * u.y;
+        let c = way.x * way.x + way.z * way.z - tan2 * deep * deep;
+        let root = (b * b - a * c).sqrt();
+        [(-b - root) / a, (-b + root) / a]
     }
 
     /// β(Θ) E(r) e^(−κ r) of light that comes by one way \[W m⁻³ sr⁻¹ nm⁻¹\].

@@ -1,5 +1,65 @@
-//! stub to be fitted
-/// Factor.
-pub fn factor(_a: f64, _b: f64, _s: f64, _v: f64) -> f64 {
-    1.0
+//! What scattering once leaves out, as a factor.
+//!
+//! In deep water whose losses are K = a + b_b, light scattered once makes only a part of the radiance that comes back: 0.97 of it at
+//! ω0 = 0.2, 0.6 (particles) or 0.5 (molecules) at ω0 = 0.9. The rest has lost its direction, so that it is added evenly:
+//!
+//!   L/L₁ = 1 + N(ω0, B) B/(2π p(Θ)),   N = Σ q^i (n_i0 + n_i1 √B + n_i2 B),  q = 1 − √(1 − ω0),  B = b_b/b
+//!
+//! N was fitted to 700 radiances of the example `multiple_scattering` (60 000 photons each): B from 0.018 to 0.5, ω0 from 0.2 to
+//! 0.98, the sun at 0 to 80° in air, view rays at 0 to 45° under water. They are met within 6 % (root mean square; 25 % at worst:
+//! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to four fifths. Angles of sun and view in N would improve that by
+//! less than half a percent.
+//!
+//! **Where it is wrong.** Just under the surface of deep water is where it holds. Deeper down the loss itself is off: K = a + b_b is too much
+//! for molecules (at ω0 = 0.9 and ten optical depths radiance is 0.15 of the truth), too little for particles (1.7 of it). Over a
+//! bottom nearer than 1/K the factor is too large.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use light::Spectrum;
+
+use super::Scattering;
+
+/// n_ij: a row for each power of q from 1.
+const FITTED: [[f64; 3]; 3] = [[0.33, 2.36, -2.17], [-0.49, -15.8, 18.04], [2.07, 16.1, -15.26]];
+
+/// Backscattered shares that the fit saw; others count as the nearest.
+const BACKSCATTERED: [f64; 2] = [0.018, 0.5];
+
+/// Radiance of light scattered any number of times over that of light scattered once with the loss K = a + b_b, just under the
+/// surface of deep water: ≥ 1.
+///
+/// `albedo` is ω0, `backscattered` B = b_b/b, `phase` p(Θ) \[1/sr\] at the angle between sun and view.
+///
+/// ```
+/// use keikan_water::{Phase, multiple};
+/// let p = Phase::petzold();
+/// let nadir = p.value(-0.7631); // sun at 60° in air
+/// // Photons: 0.596 of the light is scattered once.
+/// assert!((multiple::factor(0.9, p.backscattered(), nadir) * 0.596 - 1.0).abs() < 0.06);
+/// ```
+pub fn factor(albedo: f64, backscattered: f64, phase: f64) -> f64 {
+    if phase <= 0.0 || phase.is_nan() {
+        return 1.0;
+    }
+    let q = 1.0 - (1.0 - albedo.clamp(0.0, 1.0)).sqrt();
+    let share = backscattered.clamp(BACKSCATTERED[0], BACKSCATTERED[1]);
+    let row = |[n0, n1, n2]: [f64; 3]| n0 + n1 * share.sqrt() + n2 * share;
+    let [first, second, third] = FITTED.map(row);
+    let even = q * (first + q * (second + q * third));
+    1.0 + even.max(0.0) * backscattered.max(0.0) / (TAU * phase)
+}
+
+impl Scattering {
+    /// [`factor`] per band for light from unit vector `toward` (under water) seen along `direction` (away from the eye): for
+    /// [`Scattering::sun`] with [`crate::Loss::Diffuse`] in water that is deep.
+    pub fn multiple(&self, toward: DVec3, direction: DVec3) -> Spectrum {
+        let (water, beta) = (&self.water, self.water.volume_scattering(toward.dot(direction)));
+        let (albedo, all, back) = (water.albedo(), water.scattering(), water.backscattering());
+        Spectrum(std::array::from_fn(|b| {
+            let [albedo, beta, all, back] = [albedo[b], beta[b], all[b], back[b]].map(f64::from);
+            if all > 0.0 { factor(albedo, back / all, beta / all) as f32 } else { 1.0 }
+        }))
+    }
 }

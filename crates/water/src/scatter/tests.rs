@@ -43,6 +43,81 @@ fn single_scattering_is_b1_and_c1() {
     println!("single scattering: worst deviation from the table {worst:.1e} (Petzold's norm is 6e-3 of it)");
 }
 
+/// Nadir radiance upwards in endless water, sun at 60° in air with E = 1 facing it, n = 1.34, c = 1 1/m: problems 1 (molecules) and 2
+/// (Petzold) of Mobley et al. 1993 by Monte Carlo, within the spread of the published models.
+const MOBLEY: [(bool, f32, [f64; 4]); 4] = [
+    (true, 0.2, [5.6885e-3, 1.6768e-3, 1.2673e-5, 3.4542e-8]),
+    (true, 0.9, [8.2570e-2, 4.8687e-2, 5.7575e-3, 4.1753e-4]),
+    (false, 0.2, [1.5972e-4, 5.4980e-5, 7.8051e-7, 4.5158e-9]),
+    (false, 0.9, [8.0790e-3, 7.0708e-3, 3.2563e-3, 1.0976e-3]),
+];
+
+/// At optical depths 0, 1, 5 and 10, over the truth.
+fn against_mobley(molecules: bool, albedo: f32, truth: [f64; 4], factor: bool) -> [f64; 4] {
+    let phase = if molecules { Phase::morel() } else { Phase::petzold() };
+    let scattering = grey(albedo, phase, Loss::Diffuse);
+    let sun = sun_at(&scattering, 60.0);
+    let more = if factor { scattering.multiple(sun.toward, DVec3::NEG_Y)[0] } else { 1.0 };
+    let mut depth = [0.0, 1.0, 5.0, 10.0].into_iter();
+    truth.map(|truth| {
+        let from = DVec3::NEG_Y * depth.next().unwrap_or(0.0);
+        let ray = ViewRay { from, ..down(f64::INFINITY) };
+        f64::from(scattering.sun(&sun, &ray, &[[0.0, f64::INFINITY]])[0] * more) / truth
+    })
+}
+
+#[test]
+fn multiple_scattering_is_made_good_under_the_surface() {
+    for (molecules, albedo, truth) in MOBLEY {
+        let [once, often] = [false, true].map(|factor| against_mobley(molecules, albedo, truth, factor));
+        println!(
+            "molecules {molecules}, albedo {albedo}: scattered once {once:.3?}, with the factor {often:.3?}"
+        );
+        // The fit's own scatter is 6 % (root mean square).
+        assert!((often[0] - 1.0).abs() < 0.06, "{often:?}");
+        assert!((often[1] - 1.0).abs() < 0.3, "at one optical depth the loss is off too: {often:?}");
+        // What scattering once leaves out, as is stated.
+        let stated = if albedo < 0.5 {
+            0.95..0.98
+        } else if molecules {
+            0.48..0.50
+        } else {
+            0.58..0.61
+        };
+        assert!(stated.contains(&once[0]), "{once:?}");
+    }
+}
+
+/// Downward irradiance below the sun at 60° at optical depths 1, 5 and 10, of the same four waters: over the truth, with c, with K = a + b_b, by
+/// Kirk.
+#[test]
+fn irradiance_is_not_lost_with_c() {
+    let truths = [
+        [1.4146e-1, 1.0601e-3, 2.8811e-6],
+        [3.6591e-1, 4.3229e-2, 3.1378e-3],
+        [1.6212e-1, 2.2804e-3, 1.3074e-5],
+        [4.1352e-1, 1.8800e-1, 6.9279e-2],
+    ];
+    for ((molecules, albedo, _), truth) in MOBLEY.into_iter().zip(truths) {
+        let phase = if molecules { Phase::morel() } else { Phase::petzold() };
+        let scattering = grey(albedo, phase, Loss::Beam);
+        let (sun, water) = (sun_at(&scattering, 60.0), scattering.water());
+        let [beam, diffuse, kirk] =
+            [water.extinction(), water.diffuse(), water.downward(sun.toward.y)].map(|k| {
+                let at = |depth| f64::from(sun.on_plane(depth, DVec3::Y, k)[0]);
+                [at(1.0) / truth[0], at(5.0) / truth[1], at(10.0) / truth[2]]
+            });
+        println!(
+            "E_d, molecules {molecules}, albedo {albedo}: c {beam:.3?}, a + b_b {diffuse:.3?}, Kirk {kirk:.3?}"
+        );
+        for i in 0..3 {
+            // Worst where molecules scatter most: a quarter of the light has come back from the surface.
+            assert!((0.65..1.05).contains(&kirk[i]), "{kirk:?}");
+            assert!((beam[i] - 1.0).abs() > (diffuse[i] - 1.0).abs().min((kirk[i] - 1.0).abs()));
+        }
+    }
+}
+
 #[test]
 fn shadows_leave_what_they_do_not_cover() {
     let dark = |from, to| Stretch { from, to, dark: true };
@@ -143,10 +218,10 @@ fn lamps_scatter_to_the_stated_error() {
         assert!((fine.value[2] / reference - 1.0).abs() < 3e-5, "{at}: {} {reference}", fine.value[2]);
         let largest = fine.value.iter().fold(0.0f64, |a, b| a.max(*b));
         assert!(
-            (draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-3 * largest,
-            "two ways of 1e-3 each: {at}"
+            (draft.value[2] - fine.value[2]).abs() <= 2.0 * 1e-2 * largest,
+            "two ways of 1e-2 each: {at}"
         );
-        assert!(draft.error <= 2e-3 * largest && draft.evaluations < 600, "{at}: {draft:?}");
+        assert!(draft.error <= 2e-2 * largest && draft.evaluations < 300, "{at}: {draft:?}");
     }
 }
 
@@ -213,7 +288,7 @@ proptest! {
         let at = DVec3::new(x, y, z);
         let [rough, fine] = [LAMP_TOLERANCE, FINE].map(|t| scattering.lamp(at, &even, &ray, &[], t));
         prop_assert!(fine.value[0].is_finite() && fine.value[0] >= 0.0);
-        // Either way of light has a thousandth of its own; f32 noise of what underflows.
-        prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-3 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
+        // Either way of light has a hundredth of its own; f32 noise of what underflows.
+        prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-2 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
     }
 }

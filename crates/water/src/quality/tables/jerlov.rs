@@ -12,6 +12,7 @@ pub(crate) struct Jerlov {
 /// Jerlov's measured diffuse attenuation with Petzold's phase function; the others by Williamson and Hollins 2022
 /// (Applied Optics 61:9951), from measurements within 412 to 715 nm. Where both tell they disagree (III at 550 nm: b = 0.98
 /// against 0.287), so 7C and 9C do not continue 5C.
+#[expect(clippy::approx_constant, reason = "a measured 0.318 is not 1/π")]
 #[rustfmt::skip]
 pub(crate) const TYPES: [Jerlov; 10] = [
     Jerlov {
