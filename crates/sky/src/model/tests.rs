@@ -11,7 +11,7 @@ fn names_are_their_own() {
     for model in Model::all() {
         assert_eq!(Model::named(model.name()), Some(model));
     }
-    assert_eq!(Model::all().count(), 21);
+    assert_eq!(Model::all().count(), 22);
 }
 
 #[test]
@@ -22,6 +22,7 @@ fn every_sky_shines_by_day_as_bright_as_asked_and_its_horizon_goes_on_below() {
         Model::Uniform,
         Model::Physical,
         Model::Thesis,
+        Model::Repaired,
         Model::Perez,
         Model::Cie(9),
     ] {
