@@ -172,6 +172,31 @@ fn mirrors_at_the_surface() {
 }
 
 #[test]
+fn far_from_the_origin_it_is_the_same() {
+    let shift = DVec3::new(1e6, -3e5, 2e6);
+    let far = Surface { level: shift.y, ..WATER };
+    for (source, receiver) in [
+        ([0.0, 2.0, 0.0], [3.0, -1.0, 1.0]),
+        ([0.0, -2.0, 0.0], [1.0, 1.0, 0.5]),
+        ([0.0, -2.0, 0.0], [3.0, -1.0, 1.0]),
+    ] {
+        let (source, receiver) = (DVec3::from(source), DVec3::from(receiver));
+        let [here, there] = [
+            WATER.legs(source, receiver, Paths::Exact),
+            far.legs(source + shift, receiver + shift, Paths::Exact),
+        ];
+        for (a, b) in here.iter().flatten().zip(there.iter().flatten()) {
+            // Coordinates of 2e6 m end with 2.3e-10 m.
+            assert!(
+                (a.share * a.spread / (b.share * b.spread) - 1.0).abs() < 1e-8
+                    && a.toward.distance(b.toward) < 1e-9
+            );
+            assert!(a.at_surface.zip(b.at_surface).is_none_or(|(a, b)| (b - shift).distance(a) < 1e-9));
+        }
+    }
+}
+
+#[test]
 fn far_away_it_is_the_sun() {
     let height = 1e6;
     let leg =
