@@ -80,7 +80,7 @@ fn steps_are_few() {
         }
     }
     println!("Newton steps: {most} at most, {:.2} on average of {count}", sum as f64 / count as f64);
-    assert!(most <= 12);
+    assert!(most <= 8);
 }
 
 #[test]
@@ -222,6 +222,19 @@ proptest! {
         let bound = if skip { 64.0 } else { 16.0 };
         prop_assert!(violation(n, h, d, r, &path) <= bound * f64::EPSILON, "{:?}", path);
         prop_assert!(path.steps <= 12);
+    }
+
+    #[test]
+    fn the_thesis_iteration_ends_at_the_same_point(
+        h in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+        d in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+        r in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+    ) {
+        let reference = crossing_thesis(1.34, h, d, r, 2000);
+        // The thesis' difference of sines is lost in rounding where it hardly changes with x: where the path is steep, over its
+        // length; where it grazes, over the square of its length by h or d.
+        let length = (h + d + r).powi(3) / (h * h).min(d * d);
+        prop_assert!((crossing(1.34, h, d, r).run_air - reference).abs() <= 8.0 * f64::EPSILON * length);
     }
 
     #[test]

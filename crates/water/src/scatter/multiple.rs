@@ -7,7 +7,7 @@
 //!
 //! N was fitted to 700 radiances of the example `multiple_scattering` (60 000 photons each): B from 0.018 to 0.5, ω0 from 0.2 to
 //! 0.98, the sun at 0 to 80° in air, view rays at 0 to 45° under water. They are met within 6 % (root mean square; 25 % at worst:
-//! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to four fifths. Angles of sun and view in N would improve that by
+//! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to three quarters. Angles of sun and view in N would improve that by
 //! less than half a percent.
 //!
 //! **Where it is wrong.** Just under the surface of deep water is where it holds. Deeper down the loss itself is off: K = a + b_b is too much

@@ -163,7 +163,7 @@ fn the_scattered_sky_is_what_its_rays_add_up_to() {
         }
         let ray = ViewRay { from: DVec3::ZERO, direction: direction.as_dvec3().normalize(), length: 12.0 };
         let k = sky.scattering().coefficient();
-        let steps = 4000;
+        let steps = 400;
         let sum: Spectrum = (0..steps)
             .map(|i| {
                 let r = (f64::from(i) + 0.5) * 12.0 / f64::from(steps);
