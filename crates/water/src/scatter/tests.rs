@@ -256,6 +256,16 @@ fn lamps_on_the_ray_and_dark_lamps_do_no_harm() {
     assert!(on.value.iter().all(|x| x.is_finite() && *x > 0.0));
     let dark = scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &|_, _| Spectrum::ZERO, &ray, &[], LAMP_TOLERANCE);
     assert_eq!(dark.value, [0.0; 8]);
+    let endless =
+        scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &even, &down(f64::INFINITY), &[], LAMP_TOLERANCE);
+    let far = scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &even, &down(1e4), &[], LAMP_TOLERANCE);
+    assert!(
+        (endless.value[0] / far.value[0] - 1.0).abs() < 1e-2,
+        "both to 1e-2, and nothing is left after 10 km"
+    );
+    let still = Steps { longest: 1.0, shortest: 0.0, reference: 0.0, negligible: 0.0 };
+    let stuck = scattering.lamp_by_steps(DVec3::new(0.0, -1.0, 0.5), DVec3::Y, &even, &ray, &still);
+    assert!(stuck.evaluations < 10, "steps of no length end");
     // A spotlight, with its own distribution: only what lies in its beam.
     let spot = Distribution::new(vec![0.0], vec![0.0, 10.0, 12.0], vec![100.0, 100.0, 0.0]).unwrap();
     let light = |leg: &Leg, _: DVec3| {
