@@ -80,7 +80,7 @@ fn steps_are_few() {
         }
     }
     println!("Newton steps: {most} at most, {:.2} on average of {count}", sum as f64 / count as f64);
-    assert!(most <= 12);
+    assert!(most <= 8);
 }
 
 #[test]
@@ -172,6 +172,31 @@ fn mirrors_at_the_surface() {
 }
 
 #[test]
+fn far_from_the_origin_it_is_the_same() {
+    let shift = DVec3::new(1e6, -3e5, 2e6);
+    let far = Surface { level: shift.y, ..WATER };
+    for (source, receiver) in [
+        ([0.0, 2.0, 0.0], [3.0, -1.0, 1.0]),
+        ([0.0, -2.0, 0.0], [1.0, 1.0, 0.5]),
+        ([0.0, -2.0, 0.0], [3.0, -1.0, 1.0]),
+    ] {
+        let (source, receiver) = (DVec3::from(source), DVec3::from(receiver));
+        let [here, there] = [
+            WATER.legs(source, receiver, Paths::Exact),
+            far.legs(source + shift, receiver + shift, Paths::Exact),
+        ];
+        for (a, b) in here.iter().flatten().zip(there.iter().flatten()) {
+            // Coordinates of 2e6 m end with 2.3e-10 m.
+            assert!(
+                (a.share * a.spread / (b.share * b.spread) - 1.0).abs() < 1e-8
+                    && a.toward.distance(b.toward) < 1e-9
+            );
+            assert!(a.at_surface.zip(b.at_surface).is_none_or(|(a, b)| (b - shift).distance(a) < 1e-9));
+        }
+    }
+}
+
+#[test]
 fn far_away_it_is_the_sun() {
     let height = 1e6;
     let leg =
@@ -197,6 +222,19 @@ proptest! {
         let bound = if skip { 64.0 } else { 16.0 };
         prop_assert!(violation(n, h, d, r, &path) <= bound * f64::EPSILON, "{:?}", path);
         prop_assert!(path.steps <= 12);
+    }
+
+    #[test]
+    fn the_thesis_iteration_ends_at_the_same_point(
+        h in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+        d in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+        r in (-3.0f64..3.0).prop_map(|p| 10f64.powf(p)),
+    ) {
+        let reference = crossing_thesis(1.34, h, d, r, 2000);
+        // The thesis' difference of sines is lost in rounding where it hardly changes with x: where the path is steep, over its
+        // length; where it grazes, over the square of its length by h or d.
+        let length = (h + d + r).powi(3) / (h * h).min(d * d);
+        prop_assert!((crossing(1.34, h, d, r).run_air - reference).abs() <= 8.0 * f64::EPSILON * length);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod tests;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
+use std::sync::LazyLock;
 
 use crate::quadrature::{Tolerance, integrate};
 
@@ -108,7 +109,8 @@ impl Phase {
     /// table 3.10): cubic in the logarithms between the measured angles, ∝ θ^−1.346 below 0.1°. The table's integral is
     /// 0.995 (0.994 if linear in the logarithms); here it is made 1.
     pub fn petzold() -> Self {
-        Self::normalised(Shape::Petzold)
+        static KEPT: LazyLock<Phase> = LazyLock::new(|| Phase::normalised(Shape::Petzold));
+        KEPT.clone()
     }
 
     /// f = 1/((1 − e_f cos θ)⁴ (1 + e_b cos θ)⁴) (thesis A.2, Beardsley and Zaneveld 1969), divided by its integral;

@@ -6,7 +6,8 @@
 //!
 //! V towards the light, u the view ray's own direction away from the eye. κ is c for light scattered once and nothing else
 //! ([`Loss::Beam`]), K = a + b_b where scattering a little forwards counts as none ([`Loss::Diffuse`], quasi-single
-//! scattering: the default, nearer the truth). What it misses is measured in [`multiple`].
+//! scattering: the default, nearer the truth). What it misses [`Scattering::often`] makes good for deep
+//! water.
 
 mod fade;
 mod lamp;
@@ -51,13 +52,22 @@ pub struct Scattering {
     water: Water,
     surface: Surface,
     coefficient: Spectrum,
+    /// What is scattered more than once, as if it were even volume scattering \[1/(m sr)\]; 0 for scattering once.
+    evenly: Spectrum,
 }
 
 impl Scattering {
     /// `water` below a surface at height `level` \[m\], with the loss that its light is to have.
     pub fn new(water: Water, level: f64, loss: Loss) -> Self {
         let (surface, coefficient) = (Surface::of(&water, level), water.loss(loss));
-        Self { water, surface, coefficient }
+        Self { water, surface, coefficient, evenly: Spectrum::ZERO }
+    }
+
+    /// The same, with the light of sun and sky that is scattered more than once: in deep water, with [`Loss::Diffuse`], by
+    /// the factor of [`multiple`].
+    pub fn often(mut self) -> Self {
+        self.evenly = multiple::evenly(&self.water);
+        self
     }
 
     /// The water.
@@ -73,6 +83,11 @@ impl Scattering {
     /// What is lost of light on its way \[1/m\].
     pub fn coefficient(&self) -> Spectrum {
         self.coefficient
+    }
+
+    /// β(Θ) for light of sun or sky from unit vector `toward` seen along `direction`, and what [`multiple`] adds if that is wanted.
+    fn scattered(&self, toward: DVec3, direction: DVec3) -> Spectrum {
+        self.water.volume_scattering(toward.dot(direction)) + self.evenly
     }
 
     fn depth(&self, point: DVec3) -> f64 {

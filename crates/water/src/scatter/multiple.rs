@@ -7,7 +7,7 @@
 //!
 //! N was fitted to 700 radiances of the example `multiple_scattering` (60 000 photons each): B from 0.018 to 0.5, ω0 from 0.2 to
 //! 0.98, the sun at 0 to 80° in air, view rays at 0 to 45° under water. They are met within 6 % (root mean square; 25 % at worst:
-//! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to four fifths. Angles of sun and view in N would improve that by
+//! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to three quarters. Angles of sun and view in N would improve that by
 //! less than half a percent.
 //!
 //! **Where it is wrong.** Just under the surface of deep water is where it holds. Deeper down the loss itself is off: K = a + b_b is too much
@@ -16,10 +16,9 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
 use light::Spectrum;
 
-use super::Scattering;
+use crate::Water;
 
 /// n_ij: a row for each power of q from 1.
 const FITTED: [[f64; 3]; 3] = [[0.33, 2.36, -2.17], [-0.49, -15.8, 18.04], [2.07, 16.1, -15.26]];
@@ -40,26 +39,23 @@ const BACKSCATTERED: [f64; 2] = [0.018, 0.5];
 /// assert!((multiple::factor(0.9, p.backscattered(), nadir) * 0.596 - 1.0).abs() < 0.06);
 /// ```
 pub fn factor(albedo: f64, backscattered: f64, phase: f64) -> f64 {
-    if phase <= 0.0 || phase.is_nan() {
-        return 1.0;
-    }
-    let q = 1.0 - (1.0 - albedo.clamp(0.0, 1.0)).sqrt();
-    let share = backscattered.clamp(BACKSCATTERED[0], BACKSCATTERED[1]);
-    let row = |[n0, n1, n2]: [f64; 3]| n0 + n1 * share.sqrt() + n2 * share;
-    let [first, second, third] = FITTED.map(row);
-    let even = q * (first + q * (second + q * third));
-    1.0 + even.max(0.0) * backscattered.max(0.0) / (TAU * phase)
+    if phase > 0.0 { 1.0 + even(albedo, backscattered) / phase } else { 1.0 }
 }
 
-impl Scattering {
-    /// [`factor`] per band for light from unit vector `toward` (under water) seen along `direction` (away from the eye): for
-    /// [`Scattering::sun`] with [`crate::Loss::Diffuse`] in water that is deep.
-    pub fn multiple(&self, toward: DVec3, direction: DVec3) -> Spectrum {
-        let (water, beta) = (&self.water, self.water.volume_scattering(toward.dot(direction)));
-        let (albedo, all, back) = (water.albedo(), water.scattering(), water.backscattering());
-        Spectrum(std::array::from_fn(|b| {
-            let [albedo, beta, all, back] = [albedo[b], beta[b], all[b], back[b]].map(f64::from);
-            if all > 0.0 { factor(albedo, back / all, beta / all) as f32 } else { 1.0 }
-        }))
-    }
+/// N B/2π \[1/sr\]: what is added to p(Θ), the same for all Θ.
+fn even(albedo: f64, backscattered: f64) -> f64 {
+    let q = 1.0 - (1.0 - albedo.clamp(0.0, 1.0)).sqrt();
+    let share = backscattered.clamp(BACKSCATTERED[0], BACKSCATTERED[1]);
+    let [first, second, third] = FITTED.map(|[n0, n1, n2]| n0 + n1 * share.sqrt() + n2 * share);
+    let n = q * (first + q * (second + q * third));
+    n.max(0.0) * backscattered.max(0.0) / TAU
+}
+
+/// What is added to β(Θ) per band \[1/(m sr)\].
+pub(super) fn evenly(water: &Water) -> Spectrum {
+    let (albedo, all, back) = (water.albedo(), water.scattering(), water.backscattering());
+    Spectrum(std::array::from_fn(|b| {
+        let [albedo, all, back] = [albedo[b], all[b], back[b]].map(f64::from);
+        if all > 0.0 { (all * even(albedo, back / all)) as f32 } else { 0.0 }
+    }))
 }

@@ -23,9 +23,8 @@ impl ScatteredSky {
     /// The sky of `radiance` \[W m⁻² sr⁻¹ nm⁻¹\] by unit vector, asked at 540 directions above the horizon. Takes some 0.1 s.
     pub fn new(scattering: Scattering, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
         let rays = Rays::new(scattering.surface(), radiance);
-        let water = scattering.water();
         let table = Table::new(&rays, scattering.coefficient(), |direction, toward| {
-            water.volume_scattering(f64::from(direction.dot(toward)))
+            scattering.scattered(toward.as_dvec3(), direction.as_dvec3())
         });
         Self { scattering, rays, table }
     }
@@ -42,9 +41,8 @@ impl ScatteredSky {
 
     /// The same by summing up all rays: the slow reference.
     pub fn source_by_rays(&self, depth: f64, direction: Vec3) -> Spectrum {
-        let (depth, water) = (depth.max(0.0), self.scattering.water());
-        let coefficient = self.scattering.coefficient();
-        let kernel = |toward: Vec3| water.volume_scattering(f64::from(direction.dot(toward)));
+        let (depth, coefficient) = (depth.max(0.0), self.scattering.coefficient());
+        let kernel = |toward: Vec3| self.scattering.scattered(toward.as_dvec3(), direction.as_dvec3());
         self.rays.sum(depth, coefficient, kernel) * coefficient.attenuate(depth as f32)
     }
 

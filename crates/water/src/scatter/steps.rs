@@ -79,6 +79,10 @@ impl Scattering {
                 step = (steps.longest * steps.reference / bright).max(steps.shortest).min(steps.longest);
             }
             let next = (walked + step).min(room);
+            // A step too short for f64, or none at all, would never end.
+            if next <= walked || next.is_nan() {
+                break;
+            }
             let there = look(next);
             sum.evaluations += 1;
             for (sum, pair) in sum.radiance.iter_mut().zip((here + there).0) {

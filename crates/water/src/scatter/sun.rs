@@ -37,7 +37,7 @@ impl Scattering {
             lit.iter().map(piece).sum()
         };
         let along = Spectrum(self.coefficient.0.map(|k| reached(f64::from(k)) as f32));
-        sun.horizontal * along * self.water.volume_scattering(sun.toward.dot(ray.direction)) * sec as f32
+        sun.horizontal * along * self.scattered(sun.toward, ray.direction) * sec as f32
     }
 }
 

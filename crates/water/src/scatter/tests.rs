@@ -55,14 +55,14 @@ const MOBLEY: [(bool, f32, [f64; 4]); 4] = [
 /// At optical depths 0, 1, 5 and 10, over the truth.
 fn against_mobley(molecules: bool, albedo: f32, truth: [f64; 4], factor: bool) -> [f64; 4] {
     let phase = if molecules { Phase::morel() } else { Phase::petzold() };
-    let scattering = grey(albedo, phase, Loss::Diffuse);
+    let once = grey(albedo, phase, Loss::Diffuse);
+    let scattering = if factor { once.often() } else { once };
     let sun = sun_at(&scattering, 60.0);
-    let more = if factor { scattering.multiple(sun.toward, DVec3::NEG_Y)[0] } else { 1.0 };
     let mut depth = [0.0, 1.0, 5.0, 10.0].into_iter();
     truth.map(|truth| {
         let from = DVec3::NEG_Y * depth.next().unwrap_or(0.0);
         let ray = ViewRay { from, ..down(f64::INFINITY) };
-        f64::from(scattering.sun(&sun, &ray, &[[0.0, f64::INFINITY]])[0] * more) / truth
+        f64::from(scattering.sun(&sun, &ray, &[[0.0, f64::INFINITY]])[0]) / truth
     })
 }
 
@@ -163,7 +163,7 @@ fn the_scattered_sky_is_what_its_rays_add_up_to() {
         }
         let ray = ViewRay { from: DVec3::ZERO, direction: direction.as_dvec3().normalize(), length: 12.0 };
         let k = sky.scattering().coefficient();
-        let steps = 4000;
+        let steps = 400;
         let sum: Spectrum = (0..steps)
             .map(|i| {
                 let r = (f64::from(i) + 0.5) * 12.0 / f64::from(steps);
@@ -175,6 +175,10 @@ fn the_scattered_sky_is_what_its_rays_add_up_to() {
             worst = worst.max((closed[b] / (sum[b] * (12.0 / steps as f32)) - 1.0).abs());
         }
     }
+    let often =
+        ScatteredSky::new(sky.scattering().clone().often(), |d| Spectrum::splat(1.0 + 2.0 * d.y + d.x));
+    let (once, often) = (sky.source(1.0, Vec3::NEG_Y), often.source(1.0, Vec3::NEG_Y));
+    assert!((0..8).all(|b| often[b] > once[b] && often[b] < 2.0 * once[b]), "albedos up to 0.77");
     println!("scattered sky: worst error of the table {:.2} %", 100.0 * worst);
     // Linear over 10° and 15° of a phase function that varies by some 1 % per degree at 90°.
     assert!(worst < 0.02, "{worst}");
@@ -252,6 +256,16 @@ fn lamps_on_the_ray_and_dark_lamps_do_no_harm() {
     assert!(on.value.iter().all(|x| x.is_finite() && *x > 0.0));
     let dark = scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &|_, _| Spectrum::ZERO, &ray, &[], LAMP_TOLERANCE);
     assert_eq!(dark.value, [0.0; 8]);
+    let endless =
+        scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &even, &down(f64::INFINITY), &[], LAMP_TOLERANCE);
+    let far = scattering.lamp(DVec3::new(0.0, -1.0, 0.5), &even, &down(1e4), &[], LAMP_TOLERANCE);
+    assert!(
+        (endless.value[0] / far.value[0] - 1.0).abs() < 1e-2,
+        "both to 1e-2, and nothing is left after 10 km"
+    );
+    let still = Steps { longest: 1.0, shortest: 0.0, reference: 0.0, negligible: 0.0 };
+    let stuck = scattering.lamp_by_steps(DVec3::new(0.0, -1.0, 0.5), DVec3::Y, &even, &ray, &still);
+    assert!(stuck.evaluations < 10, "steps of no length end");
     // A spotlight, with its own distribution: only what lies in its beam.
     let spot = Distribution::new(vec![0.0], vec![0.0, 10.0, 12.0], vec![100.0, 100.0, 0.0]).unwrap();
     let light = |leg: &Leg, _: DVec3| {
