@@ -67,8 +67,7 @@ pub(crate) fn run(args: &Animate, json: bool) -> Result<(), Error> {
     let scene = load(args.view.scene.as_deref())?;
     let loaded = start.elapsed().as_secs_f64();
     warn(&scene);
-    let mut warnings: BTreeSet<String> =
-        scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what)).collect();
+    let mut warnings: BTreeSet<String> = scene.warnings.iter().map(ToString::to_string).collect();
     let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
     let jobs = jobs(args, &studio)?;
     // What can be known to fail fails before the first frame.
@@ -212,7 +211,7 @@ impl Job {
         monitor.rendering.store(true, Ordering::Relaxed);
         let Shot { scene, plan, film } = studio.frame(&self.spec, monitor, &mut stages)?;
         map_file::tell(studio.maps());
-        let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
+        let of_scene = scene.warnings.iter().map(ToString::to_string);
         for warning in of_scene.chain(plan.warnings.iter().cloned()) {
             if warnings.insert(warning.clone()) {
                 eprintln!("warning: {warning}");

@@ -102,7 +102,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     }
     let luminance = &pictures[0].luminance;
     let mean = luminance.iter().map(|&l| f64::from(l)).sum::<f64>() / luminance.len().max(1) as f64;
-    let of_scene = scene.warnings.iter().map(|w| format!("{}: {}", w.place, w.what));
+    let of_scene = scene.warnings.iter().map(ToString::to_string);
     let warnings = of_scene.chain(plan.warnings.iter().cloned()).collect();
     let summary = Summary {
         plan,
@@ -153,7 +153,7 @@ fn outputs(args: &args::Render) -> Result<Vec<PathBuf>, Error> {
 
 pub(crate) fn warn(scene: &Scene) {
     for warning in &scene.warnings {
-        eprintln!("warning: {}: {}", warning.place, warning.what);
+        eprintln!("warning: {warning}");
     }
 }
 

@@ -393,6 +393,17 @@ mod tests {
     }
 
     #[test]
+    fn sensors_ask_more_of_the_sky_unless_told_how() {
+        let mut settings = Settings::preset(Preset::Normal);
+        let at_sensors = settings.clone().at_sensors();
+        assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 4096));
+        settings.set("sky.rays", "9999", "--set").unwrap();
+        assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 9999);
+        settings.set("sky.visibility", "cuboid", "--set").unwrap();
+        assert_eq!(settings.clone().at_sensors(), settings);
+    }
+
+    #[test]
     fn an_unknown_name_lists_the_known_ones() {
         let error = Settings::preset(Preset::Normal).set("visibilty", "rays", "--set").unwrap_err();
         assert!(error.to_string().contains("visibility, sub-scanlines"), "{error}");

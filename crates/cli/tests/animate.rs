@@ -1,27 +1,22 @@
 //! `keikan animate` as a user meets it: which files, what is skipped, what is said.
 
+mod common;
+
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use common::{folder, text};
 use serde_json::Value;
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("animate").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
 
 /// Small and rough: what is looked at is the program, not the picture.
 fn keikan(folder: &Path, arguments: &str) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_keikan"));
     let arguments = arguments.split_whitespace().chain(["--size", "16x10", "--preset", "draft"]);
-    command.current_dir(folder).arg("animate").args(arguments).stdin(Stdio::null()).output().unwrap()
+    common::keikan(folder, &["animate"].into_iter().chain(arguments).collect::<Vec<_>>())
 }
 
 fn said(done: &Output) -> String {
-    String::from_utf8_lossy(&done.stderr).into_owned()
+    text(&done.stderr)
 }
 
 fn files(folder: &Path) -> Vec<String> {

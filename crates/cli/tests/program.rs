@@ -1,31 +1,31 @@
 //! The program as a user meets it: exit codes, streams, files whole or not at all.
 
+mod common;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Command, Stdio};
 
-/// An empty folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn keikan(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_keikan"));
-    command.current_dir(folder).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
+use common::{folder, keikan, text};
 
 fn files(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> =
         fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
+}
+
+#[test]
+fn a_water_that_there_is_not_names_those_that_there_are() {
+    let folder = folder("water");
+    let polygon = "polygon = { points = [[0, 0, 0], [0, 0, 4], [6, 0, 4]] }";
+    fs::write(folder.join("sea.toml"), format!("[[water]]\nname = 'bay'\nquality = 'jerlov-4'\n{polygon}\n"))
+        .unwrap();
+    let done = keikan(&folder, &["render", "sea.toml", "--size", "8x8"]);
+    let said = text(&done.stderr);
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    assert!(said.contains("\"bay\"") && said.contains("jerlov-4") && said.contains("jerlov-3C"), "{said}");
+    assert_eq!(files(&folder), ["sea.toml"]);
 }
 
 #[test]

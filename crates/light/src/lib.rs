@@ -10,8 +10,8 @@
 //! | what arrives at this place, from where? | [`Illuminate`] | [`Uniform`] |
 //! | what leaves this hit towards the eye? | [`Shade`] | [`Lambert`] |
 //!
-//! Two further questions carry the picture itself: [`See`] (which pieces of surface show in these
-//! pixels?) and [`Nearest`] (what does this one ray meet first?).
+//! Three further questions carry the picture itself: [`See`] (which pieces of surface show in these
+//! pixels?), [`Nearest`] (what does this one ray meet first?) and [`Traverse`] (what does light lose and gain along it?).
 //!
 //! **Leaves out.** Files, threads, acceleration structures, polarisation, fluorescence, time of flight.
 //!

@@ -48,3 +48,9 @@ pub struct Warning {
     /// What was found and what was made of it.
     pub what: String,
 }
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.place, self.what)
+    }
+}

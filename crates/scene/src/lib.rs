@@ -13,7 +13,7 @@
 //! # Ok::<(), keikan_scene::Error>(())
 //! ```
 //!
-//! **Leaves out.** What to do with the data: chapters never see this crate. Models' animations, skins, water
+//! **Leaves out.** What to do with the data: chapters never see this crate. Models' animations and skins,
 //! and trees (a warning says so); what faces a set operation of solids has. Which models and knobs exist: names pass through as texts.
 //!
 //! **Where it is wrong.** UTC is taken for UT1 (the sun up to 0.004° off) and ΔT is an estimate; refraction

@@ -42,13 +42,8 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
     match extension.as_str() {
         "glb" | "gltf" => model(path),
         "toml" => {
-            let io = |source| Error::Io { path: path.to_path_buf(), source };
-            // One byte more than allowed tells a file that is too long.
-            let bytes = regular_file::read(path, MAX_BYTES + 1).map_err(io)?;
+            let bytes = regular_file::whole(path, MAX_BYTES)?;
             let wrong = |what: String| Error::File { path: path.to_path_buf(), place: String::new(), what };
-            if bytes.len() as u64 > MAX_BYTES {
-                return Err(wrong(format!("is longer than {} MiB", MAX_BYTES >> 20)));
-            }
             let text = String::from_utf8(bytes).map_err(|error| {
                 wrong(format!("is not UTF-8 from byte {} on", error.utf8_error().valid_up_to()))
             })?;

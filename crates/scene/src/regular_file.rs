@@ -21,3 +21,18 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>> {
     file.take(limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
+
+/// Reads a plain file whole.
+///
+/// # Errors
+/// [`crate::Error::Io`] from the disk; [`crate::Error::File`] for one of more than `most` bytes.
+pub(crate) fn whole(path: &Path, most: u64) -> std::result::Result<Vec<u8>, crate::Error> {
+    let io = |source| crate::Error::Io { path: path.to_path_buf(), source };
+    // One byte more than allowed tells a file that is too long.
+    let bytes = read(path, most + 1).map_err(io)?;
+    if bytes.len() as u64 <= most {
+        return Ok(bytes);
+    }
+    let what = format!("is longer than {} MiB", most >> 20);
+    Err(crate::Error::File { path: path.to_path_buf(), place: String::new(), what })
+}

@@ -45,14 +45,7 @@ pub struct SkyTable {
 /// # Errors
 /// [`Error::Io`] from the disk; what [`parse`] finds in the file, with line and column.
 pub fn read(path: &Path) -> Result<SkyTable, Error> {
-    let io = |source| Error::Io { path: path.to_path_buf(), source };
-    // One byte more than allowed tells a file that is too long.
-    let bytes = regular_file::read(path, MAX_BYTES + 1).map_err(io)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let what = format!("is longer than {} MiB", MAX_BYTES >> 20);
-        return Err(Error::File { path: path.to_path_buf(), place: String::new(), what });
-    }
-    parse(&bytes, path)
+    parse(&regular_file::whole(path, MAX_BYTES)?, path)
 }
 
 /// What is wrong, and where: line and column (the number of the field), each from 1; 0 = nowhere in particular.

@@ -72,7 +72,7 @@ fn what_is_missing_is_said_and_matters_only_where_it_is_asked_for() {
     let mut text = format!("{HEAD}{PERIODS}{}", rows(7, 12, "300"));
     text += &rows(1, 1, "9999");
     let year = parse(&text).unwrap();
-    let said: Vec<_> = year.warnings.iter().map(|w| format!("{}: {}", w.place, w.what)).collect();
+    let said: Vec<_> = year.warnings.iter().map(ToString::to_string).collect();
     // 184 days of July to December and 31 of January; January begins after 2 lines of head and 184 · 24 rows.
     assert_eq!(said[0], "a.epw: has 5160 hours; a whole year has 8760 or 8784");
     assert_eq!(said[1], "a.epw: line 4419: irradiance is missing in 744 hours (here first)");

@@ -12,14 +12,15 @@
 //! [`light::Illuminate`]), what one sees of its surface ([`flat::SurfaceShade`], a [`light::Shade`]), and what is lost and
 //! added on the way under water ([`flat::Fill`], a [`light::Traverse`]).
 //!
-//! **Leaves out.** Waves, and so caustics; shadows of things on the sky's light; interreflection; water that changes with depth;
-//! fluorescence, polarisation; one index of refraction serves all bands. Nothing here asks what stands in the way: callers give lit stretches and
-//! visibility.
+//! **Leaves out.** Waves, and so caustics; interreflection; water that changes with depth;
+//! fluorescence, polarisation; one index of refraction serves all bands. [`flat`] asks an occluder on every leg; all else asks nobody what
+//! stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and [`ScatteredSky`] know no shadows.
 //!
 //! **Known to be wrong.** K = a + b_b is the loss of a vertical beam scattered rarely: in coastal waters (ω0 from 0.8 to 0.95) it is
 //! 0.5 to 0.9 of the attenuation that Jerlov measured; [`Water::downward`] is nearer. Scattering once misses two fifths of the radiance at ω0 = 0.9;
 //! the factor of [`multiple`] makes that good within 6 % in deep water only, and not for luminaires. The sky's rays are
-//! 10° apart.
+//! 10° apart. [`flat`] has rules of its own, which are simpler and slower: eight points along each ray whatever the source, each of
+//! which asks 256 directions of the sky, and no factor for what is scattered more than once.
 //!
 //! ```
 //! use glam::DVec3;

@@ -107,12 +107,7 @@ impl Report {
                 traits: sky.traits.iter().copied().collect(),
             },
             global_lux: sky.diffuse.luminance() + sky.sun_horizontal.luminance(),
-            warnings: scene
-                .warnings
-                .iter()
-                .map(|w| format!("{}: {}", w.place, w.what))
-                .chain(plan.warnings.clone())
-                .collect(),
+            warnings: scene.warnings.iter().map(ToString::to_string).chain(plan.warnings.clone()).collect(),
             exposure: None,
             written: Vec::new(),
         }

@@ -77,14 +77,7 @@ fn slot(month: i8, day: i8, hour: i8) -> Option<usize> {
 /// # Errors
 /// [`Error::Io`] from the disk; what [`parse`] finds in the file, with its line.
 pub fn read(path: &Path) -> Result<Year, Error> {
-    let io = |source| Error::Io { path: path.to_path_buf(), source };
-    // One byte more than allowed tells a file that is too long.
-    let bytes = regular_file::read(path, MAX_BYTES + 1).map_err(io)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let what = format!("is longer than {} MiB", MAX_BYTES >> 20);
-        return Err(Error::File { path: path.to_path_buf(), place: String::new(), what });
-    }
-    parse(&bytes, path)
+    parse(&regular_file::whole(path, MAX_BYTES)?, path)
 }
 
 #[cfg(test)]
