@@ -97,7 +97,7 @@ fn a_water_that_is_none_is_named() {
         ("phase = 'petzold'", "is for water that is measured"),
         ("scattering = [[550, 1]]\nextinction = [[550, 1]]\nphase = 'milk'", "\"milk\" is unknown"),
         ("scattering_times = -1", "scattering_times"),
-        ("model = 'garden'", "has no node"),
+        ("model = 'garden'", "names none"),
     ] {
         let message = pond(text).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{text}: {message}");
@@ -108,7 +108,7 @@ fn a_water_that_is_none_is_named() {
 const MODEL: &str = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
   "nodes": [ { "mesh": 0, "name": "pond", "rotation": [-0.70710678118, 0, 0, 0.70710678118], "translation": [0, 0.5, 0] },
     { "mesh": 0, "name": "bank" } ],
-  "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+  "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] }], "materials": [{ "name": "Slime" }],
   "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] }],
   "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
   "buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
@@ -123,10 +123,7 @@ fn garden(test: &str, text: &str) -> Result<Scene, Error> {
     scene
 }
 
-#[test]
-fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
-    let model = "[[model]]\nname = 'garden'\nfile = 'garden.gltf'\nposition = [10, 1, 0]\n";
-    let scene = garden("node", &format!("{model}[[water]]\nnode = 'pond'\nmodel = 'garden'\n")).unwrap();
+fn is_the_pond(scene: &Scene) {
     assert_eq!(scene.geometry.instances.len(), 1, "the bank alone");
     let water = &scene.waters[0];
     // f32 corners and a quaternion of eleven digits.
@@ -137,13 +134,20 @@ fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
     assert!((area - 0.5).abs() < 1e-6, "{area}");
     let lowest = [a, b, c].map(|corner| f64::from(corner.x) + water.place.translation.x + scene.origin.x);
     assert!(lowest.iter().all(|x| (10.0 - 1e-6..=11.0 + 1e-6).contains(x)), "{lowest:?}");
+}
+
+#[test]
+fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
+    let model = "[[model]]\nname = 'garden'\nfile = 'garden.gltf'\nposition = [10, 1, 0]\n";
+    // Of the material, the bank stands on: nothing of it is level at the top.
+    for wanted in ["node = 'pond'\nmodel = 'garden'", "material = 'Slime'"] {
+        is_the_pond(&garden("node", &format!("{model}[[water]]\n{wanted}\n")).unwrap());
+    }
     for (text, expected) in [
         ("node = 'bank'", "is 1.000 m off that"),
-        (
-            "node = 'lake'",
-            "no model has a node of that name that shows something; there are \"bank\", \"pond\"",
-        ),
-        ("node = 'pond'\nmodel = 'park'", "no model has a node"),
+        ("node = 'lake'", "no model shows a node of that name; there are \"bank\", \"pond\""),
+        ("node = 'pond'\nmodel = 'park'", "no model shows a node"),
+        ("material = 'slime'", "no model shows a material of that name; there are"),
         ("node = 'pond'\npolygon = { points = [] }", "polygon and node at once"),
     ] {
         let message = garden("fault", &format!("{model}[[water]]\n{text}\n")).err().map(|e| e.to_string());

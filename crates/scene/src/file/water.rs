@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::PolygonTable;
 
-/// Water: everything below a level surface. One of polygon, node; at most one of quality, secchi, chlorophyll, and two of
+/// Water: everything below a level surface. One of polygon, node, material; at most one of quality, secchi, chlorophyll, and two of
 /// absorption, scattering, extinction.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -16,7 +16,10 @@ pub(crate) struct WaterTable {
     pub(crate) polygon: Option<PolygonTable>,
     /// The surface: the node of that name in a model file, which must be level; it is not drawn itself.
     pub(crate) node: Option<String>,
-    /// Name of the `[[model]]` that the node is in. Default: any.
+    /// The surface: of the faces in the material of that name in a model file, those that lie level at the top. The others are drawn as
+    /// they are: they are the bed.
+    pub(crate) material: Option<String>,
+    /// Name of the `[[model]]` that the node or material is in. Default: any.
     pub(crate) model: Option<String>,
     /// Which water: `clear`, which absorbs and scatters nothing, or one by name such as `pool`, `sea` or `jerlov-3C`. Default `pool`.
     pub(crate) quality: Option<String>,

@@ -14,6 +14,9 @@ use crate::document::Spot;
 use crate::file::{MaterialTable, ModelTable};
 use crate::{Error, Material, gltf};
 
+/// How far corners of a water's surface may lie off its level \[m\]: what one writes with millimetres.
+pub(crate) const UNEVEN: f64 = 1e-3;
+
 /// Most placed meshes of a scene: 10⁸ of them take 11 GB.
 const MOST_INSTANCES: usize = 100_000_000;
 
@@ -31,25 +34,34 @@ struct Shelved {
     path: PathBuf,
 }
 
-/// Nodes of models that something else than the picture wants: surfaces of water.
+/// Faces of models that something else than the picture wants: surfaces of water.
 #[derive(Default)]
 pub(crate) struct Claims {
     /// Who claims what.
     pub(crate) of: Vec<Claim>,
     /// What was found.
     pub(crate) found: Vec<Found>,
-    /// Names of all nodes, for messages; kept only if there are claims.
-    pub(crate) names: BTreeSet<Arc<str>>,
+    /// Names of all nodes and of all materials, for messages; kept only if there are claims.
+    pub(crate) names: [BTreeSet<Arc<str>>; 2],
 }
 
-/// A water (its number from 0) and the node that is its surface, in a certain model or in any.
+/// A water (its number from 0) and what is its surface, in a certain model or in any.
 pub(crate) struct Claim {
     pub(crate) water: usize,
     pub(crate) model: Option<String>,
-    pub(crate) node: String,
+    pub(crate) wanted: Wanted,
 }
 
-/// A part of a claimed node.
+/// Which faces.
+#[derive(PartialEq)]
+pub(crate) enum Wanted {
+    /// All of the node of this name.
+    Node(String),
+    /// Of the faces in the material of this name, those that lie level at the top.
+    Material(String),
+}
+
+/// A part of what is claimed.
 pub(crate) struct Found {
     pub(crate) water: usize,
     pub(crate) mesh: Mesh,
@@ -57,22 +69,38 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// All its corners in the coordinates of the scene file \[m\].
+    /// The corners of its triangles in the coordinates of the scene file \[m\], three by three.
     pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.mesh.positions.iter().map(|corner| self.world_from_mesh.transform_point3(corner.as_dvec3()))
+        let corner =
+            |i: &u32| self.world_from_mesh.transform_point3(self.mesh.positions[*i as usize].as_dvec3());
+        self.mesh.triangles.iter().flatten().map(corner)
     }
 }
 
 impl Claims {
-    fn claim(&mut self, model: Option<&str>, node: &Arc<str>) -> Option<usize> {
+    /// The claim on faces of this node in this material.
+    fn claim(&mut self, model: Option<&str>, node: &Arc<str>, material: &str) -> Option<&Claim> {
         if !self.of.is_empty() {
-            self.names.insert(Arc::clone(node));
+            self.names[0].insert(Arc::clone(node));
+            self.names[1].insert(material.into());
         }
-        let is = |claim: &&Claim| {
-            claim.node == **node && claim.model.as_deref().is_none_or(|asked| Some(asked) == model)
-        };
-        self.of.iter().find(is).map(|claim| claim.water)
+        self.of.iter().find(|claim| {
+            let here = claim.model.as_deref().is_none_or(|asked| Some(asked) == model);
+            here && match &claim.wanted {
+                Wanted::Node(name) => *name == **node,
+                Wanted::Material(name) => name == material,
+            }
+        })
     }
+}
+
+/// The faces of a placed mesh that lie level at its top, within `slack` \[m\], and the others.
+fn split_top(mesh: &Mesh, world_from_mesh: &DAffine3, slack: f64) -> [Mesh; 2] {
+    let height = |i: &u32| world_from_mesh.transform_point3(mesh.positions[*i as usize].as_dvec3()).y;
+    let top = mesh.triangles.iter().flatten().map(height).fold(f64::NEG_INFINITY, f64::max);
+    let (upper, lower) =
+        mesh.triangles.iter().partition(|corners| corners.iter().all(|i| top - height(i) <= slack));
+    [upper, lower].map(|triangles| Mesh { triangles, ..mesh.clone() })
 }
 
 /// Adds what one `[[model]]` table describes.
@@ -222,13 +250,21 @@ fn place(
     }
     for (instance, node) in shelved.instances.iter().zip(&shelved.nodes) {
         let world_from_mesh = *placement * instance.world_from_mesh;
-        match claims.claim(name, node) {
-            Some(water) => {
-                let mesh = draft.geometry.meshes[instance.mesh as usize].clone();
-                claims.found.push(Found { water, mesh, world_from_mesh });
-            }
-            None => draft.add_instance(instance.mesh, world_from_mesh),
+        let mesh = &draft.geometry.meshes[instance.mesh as usize];
+        let material = draft.materials.get(mesh.material as usize).map_or("", |material| &material.name);
+        let Some(claim) = claims.claim(name, node, material) else {
+            draft.add_instance(instance.mesh, world_from_mesh);
+            continue;
+        };
+        let water = claim.water;
+        let [taken, left] = match claim.wanted {
+            Wanted::Node(_) => [mesh.clone(), Mesh::default()],
+            Wanted::Material(_) => split_top(mesh, &world_from_mesh, UNEVEN),
+        };
+        if !left.triangles.is_empty() {
+            draft.add_mesh(left, world_from_mesh);
         }
+        claims.found.push(Found { water, mesh: taken, world_from_mesh });
     }
     for camera in &shelved.cameras {
         draft.cameras.extend(punctual::camera(camera, placement, draft.cameras.len() + 1));

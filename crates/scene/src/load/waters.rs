@@ -22,7 +22,7 @@ pub(crate) fn water(
 ) -> Result<Water, Error> {
     let (surface, place) = match &table.polygon {
         Some(polygon) => surface::drawn(&spot.key("polygon"), polygon)?,
-        None => surface::of_node(spot, number - 1, claims)?,
+        None => surface::of_model(spot, number - 1, claims)?,
     };
     let times =
         spot.key("scattering_times").within(table.scattering_times.unwrap_or(1.0), 0.0, MOST_TIMES, "")?;

@@ -4,27 +4,32 @@ use glam::{DAffine3, DVec3};
 use light::Mesh;
 
 use super::super::inline;
-use super::super::models::{Claim, Claims, list};
+use super::super::models::{Claim, Claims, UNEVEN, Wanted, list};
 use crate::Error;
 use crate::document::Spot;
 use crate::file::{PolygonTable, WaterTable};
 
-/// How far corners may lie off the level of the first \[m\]: what one writes with millimetres.
-const UNEVEN: f64 = 1e-3;
-
 /// Corners that make no triangle.
 const EMPTY: &str = "has no face that one could see from above: nothing there can be a water's surface";
 
-/// Which nodes of models the waters claim as their surfaces.
+/// Which faces of models the waters claim as their surfaces.
 pub(crate) fn claims(root: &Spot<'_>, tables: &[WaterTable]) -> Result<Claims, Error> {
     let mut claims = Claims::default();
     for (i, table) in tables.iter().enumerate() {
         let spot = root.key("water").index(i);
-        spot.exactly_one(&[("polygon", table.polygon.is_some()), ("node", table.node.is_some())])?;
-        if let Some(node) = &table.node {
-            claims.of.push(Claim { water: i, model: table.model.clone(), node: node.clone() });
-        } else if table.model.is_some() {
-            return Err(spot.key("model").error("says which model a node is in, but the water has no node"));
+        spot.exactly_one(&[
+            ("polygon", table.polygon.is_some()),
+            ("node", table.node.is_some()),
+            ("material", table.material.is_some()),
+        ])?;
+        let node = table.node.clone().map(Wanted::Node);
+        match (node.or_else(|| table.material.clone().map(Wanted::Material)), &table.model) {
+            (Some(wanted), model) => claims.of.push(Claim { water: i, model: model.clone(), wanted }),
+            (None, Some(_)) => {
+                let what = "says which model a node or a material is in, but the water names none";
+                return Err(spot.key("model").error(what));
+            }
+            (None, None) => {}
         }
     }
     Ok(claims)
@@ -43,14 +48,15 @@ pub(super) fn drawn(spot: &Spot<'_>, polygon: &PolygonTable) -> Result<(Mesh, DA
 }
 
 /// The surface that water number `water` (from 0) has claimed of the models.
-pub(super) fn of_node(spot: &Spot<'_>, water: usize, claims: &Claims) -> Result<(Mesh, DAffine3), Error> {
-    let spot = spot.key("node");
+pub(super) fn of_model(spot: &Spot<'_>, water: usize, claims: &Claims) -> Result<(Mesh, DAffine3), Error> {
+    let wanted = claims.of.iter().find(|claim| claim.water == water).map(|claim| &claim.wanted);
+    let is_node = !matches!(wanted, Some(Wanted::Material(_)));
+    let spot = spot.key(if is_node { "node" } else { "material" });
     let parts: Vec<_> = claims.found.iter().filter(|found| found.water == water).collect();
     if parts.is_empty() {
-        let known = list(claims.names.iter().map(|name| &**name));
-        return Err(
-            spot.error(format!("no model has a node of that name that shows something; there are {known}"))
-        );
+        let (what, names) = if is_node { ("node", &claims.names[0]) } else { ("material", &claims.names[1]) };
+        let known = list(names.iter().map(|name| &**name));
+        return Err(spot.error(format!("no model shows a {what} of that name; there are {known}")));
     }
     let corners: Vec<DVec3> = parts.iter().flat_map(|part| part.corners()).collect();
     let Some(&first) = corners.first() else { return Err(spot.error(EMPTY)) };
@@ -59,13 +65,9 @@ pub(super) fn of_node(spot: &Spot<'_>, water: usize, claims: &Claims) -> Result<
     }
     let sum: DVec3 = corners.iter().sum();
     let middle = (sum / corners.len() as f64).round().with_y(first.y);
-    let mut mesh =
-        Mesh { positions: corners.iter().map(|c| (*c - middle).as_vec3()).collect(), ..Mesh::default() };
-    let mut before = 0;
-    for part in &parts {
-        mesh.triangles.extend(part.mesh.triangles.iter().map(|corners| corners.map(|i| i + before)));
-        before += part.mesh.positions.len() as u32;
-    }
+    let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let positions = corners.iter().map(|c| (*c - middle).as_vec3()).collect();
+    let mesh = Mesh { positions, triangles, ..Mesh::default() };
     let mesh = facing_up(mesh);
     if mesh.triangles.is_empty() {
         return Err(spot.error(EMPTY));
