@@ -60,7 +60,7 @@ impl Waters {
     pub(super) fn lit(&self, scene: &Scene, source: Source) -> Source {
         let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
         let point = source.point.map(|point| match point {
-            PointSource::Toward(toward) => Kind::Toward(toward),
+            PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
             PointSource::At(position) => Kind::At(position),
         });
         let sky = (source.name == SKY).then_some(Kind::Around);
