@@ -254,6 +254,42 @@ pub const KNOBS: &[Knob] = &[
         doc: "how a lamp's light spreads beyond a water surface: as it does, or as the thesis prints it (3.11, 3.12: up to ten times too bright)",
     },
     Knob {
+        name: "water.scattering",
+        domain: Domain::Choice(&["off", "single", "multiple"]),
+        presets: ["multiple"; 3],
+        doc: "TODO",
+    },
+    Knob {
+        name: "water.lamp-integral",
+        domain: Domain::Choice(&["quadrature", "steps"]),
+        presets: ["quadrature"; 3],
+        doc: "TODO",
+    },
+    Knob {
+        name: "water.lamp-tolerance",
+        domain: Domain::Number(1e-6, 1.0),
+        presets: ["0.1", "0.01", "0.0001"],
+        doc: "TODO",
+    },
+    Knob {
+        name: "water.lamp-step",
+        domain: Domain::Number(0.001, 1000.0),
+        presets: ["0.3", "0.1", "0.01"],
+        doc: "TODO",
+    },
+    Knob {
+        name: "water.sky-rays",
+        domain: Domain::Integer(0, 65536),
+        presets: ["32", "64", "1024"],
+        doc: "TODO",
+    },
+    Knob {
+        name: "water.sky-shafts",
+        domain: Domain::Integer(0, 4096),
+        presets: ["4", "12", "64"],
+        doc: "TODO",
+    },
+    Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],

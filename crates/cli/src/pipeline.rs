@@ -289,6 +289,11 @@ impl Surroundings for Around<'_> {
         self.ask(beams, place, receive);
     }
 
+    fn scattered(&self, ray: &Ray) -> Spectrum {
+        let sources = self.sources.iter().map(|&i| &self.pipeline.sources[i]);
+        sources.map(|source| source.light.scattered(ray, &*self.pipeline.occlude)).sum()
+    }
+
     fn radiance(&self, ray: &Ray, path: Path) -> Spectrum {
         if path.depth > self.pipeline.limits.depth || path.share < self.pipeline.limits.share {
             return Spectrum::ZERO;

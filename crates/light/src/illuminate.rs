@@ -66,6 +66,13 @@ pub trait Illuminate: Send + Sync {
         Spectrum::ZERO
     }
 
+    /// Radiance of this source's light that what fills the space scatters into `ray`, up to its length, as it arrives at
+    /// its origin \[W m⁻² sr⁻¹ nm⁻¹\], ≥ 0; 0 in clear air.
+    fn scattered(&self, ray: &Ray, occlude: &dyn Occlude) -> Spectrum {
+        let _ = (ray, occlude);
+        Spectrum::ZERO
+    }
+
     /// Irradiance on the place's own plane \[W m⁻² nm⁻¹\]: all arrivals together.
     fn irradiance(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
         let mut sum = Spectrum::ZERO;
@@ -92,6 +99,10 @@ impl<T: Illuminate + ?Sized> Illuminate for Arc<T> {
 
     fn radiance(&self, ray: &Ray) -> Spectrum {
         (**self).radiance(ray)
+    }
+
+    fn scattered(&self, ray: &Ray, occlude: &dyn Occlude) -> Spectrum {
+        (**self).scattered(ray, occlude)
     }
 }
 

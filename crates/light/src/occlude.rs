@@ -13,6 +13,14 @@ pub enum PointSource {
     At(DVec3),
     /// A sun in the direction of this unit vector.
     Toward(DVec3),
+    /// Parallel light from the plane y = `level` \[m\], from where only what is below it is in the way: a sun's, beyond a
+    /// horizontal surface that refracts it.
+    Below {
+        /// Unit vector towards where it comes from, upwards.
+        toward: DVec3,
+        /// Height of the plane \[m\], above the segment.
+        level: f64,
+    },
 }
 
 /// A stretch of a segment that a source does not simply reach.

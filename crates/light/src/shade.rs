@@ -19,6 +19,13 @@ pub trait Surroundings {
         });
     }
 
+    /// Radiance that what fills the space scatters into `ray`, of the light of every source, as it arrives at its origin
+    /// \[W m⁻² sr⁻¹ nm⁻¹\]: [`crate::Illuminate::scattered`] of all.
+    fn scattered(&self, ray: &Ray) -> Spectrum {
+        let _ = ray;
+        Spectrum::ZERO
+    }
+
     /// Radiance that comes back along a further ray (mirrored, refracted) \[W m⁻² sr⁻¹ nm⁻¹\]. `path` is
     /// the further ray's own: the pipeline answers 0 where its share or depth is past the limit.
     fn radiance(&self, ray: &Ray, path: Path) -> Spectrum;

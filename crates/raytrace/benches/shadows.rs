@@ -126,7 +126,9 @@ fn row(name: &str, world: &World, side: f64, long: f64, source: PointSource) {
         let blocked = |(_, _, place): &&(DVec3, DVec3, Place)| {
             let ray = match source {
                 PointSource::At(at) => place.toward(at.as_vec3()),
-                PointSource::Toward(toward) => place.leave(toward.as_vec3(), f32::INFINITY),
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+                    place.leave(toward.as_vec3(), f32::INFINITY)
+                }
             };
             world.transmittance(&ray).is_zero()
         };

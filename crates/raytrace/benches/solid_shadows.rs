@@ -101,7 +101,9 @@ fn row(name: &str, solids: &Solids, (middle, side): (f64, f64), long: f64, sourc
             let place = Place { position, error: 1e-6, normal: Vec3::Y, seed: 0 };
             let ray = match source {
                 PointSource::At(at) => place.toward(at.as_vec3()),
-                PointSource::Toward(toward) => place.leave(toward.as_vec3(), f32::INFINITY),
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+                    place.leave(toward.as_vec3(), f32::INFINITY)
+                }
             };
             solids.transmittance(&ray).is_zero()
         };

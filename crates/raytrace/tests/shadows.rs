@@ -82,6 +82,22 @@ fn a_board_above_a_floor() {
 }
 
 #[test]
+fn light_from_a_plane_is_hidden_by_what_is_below_it() {
+    let toward = DVec3::new(1.0, 2.0, 0.0).normalize();
+    let (a, b) = (DVec3::new(-8.0, 0.0, 0.25), DVec3::new(8.0, 0.0, 0.25));
+    let below = |level: f64| PointSource::Below { toward, level };
+    let board = mesh(&quad([-1.0, 2.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]));
+    // A wall from −1 to 4: of light from y = 2 on, what passes its lower half, 1 m along; of a sun's, all of 2 m.
+    let wall = mesh(&quad([4.0, -1.0, -1.0], [0.0, 5.0, 0.0], [0.0, 0.0, 2.0]));
+    let world = World::build(geometry(vec![board, wall]), Quality::Medium);
+    let wide = |from: f64, to: f64| ((from + 8.0) / 16.0, (to + 8.0) / 16.0);
+    same(&dark(&world, below(1.5), a, b), &[wide(3.25, 4.0)], EXACT);
+    same(&dark(&world, below(2.0), a, b), &[wide(3.0, 4.0)], EXACT);
+    same(&dark(&world, below(2.5), a, b), &[wide(-2.0, 0.0), wide(2.75, 4.0)], EXACT);
+    same(&dark(&world, PointSource::Toward(toward), a, b), &[wide(-2.0, 0.0), wide(2.0, 4.0)], EXACT);
+}
+
+#[test]
 fn a_wall_throws_its_shadow_from_its_foot_on() {
     let [floor, e, f] = FLOOR;
     let (a, b) = (DVec3::new(-8.0, 0.0, 0.25), DVec3::new(8.0, 0.0, 0.25));
@@ -207,7 +223,7 @@ fn a_crowd_of_faces_is_left_to_rays() {
 fn blocked(faces: &[[DVec3; 3]], at: DVec3, source: PointSource) -> bool {
     let (toward, length) = match source {
         PointSource::At(lamp) => (lamp - at, 1.0),
-        PointSource::Toward(toward) => (toward, f64::INFINITY),
+        PointSource::Toward(toward) | PointSource::Below { toward, .. } => (toward, f64::INFINITY),
     };
     faces.iter().any(|&[a, b, c]| {
         let (a, b, c) = (a - at, b - at, c - at);
@@ -298,7 +314,9 @@ fn by_ray(world: &World, at: DVec3, normal: DVec3, source: PointSource, reach: f
     let place = Place { position: at.as_vec3(), error, normal: normal.as_vec3(), seed: 0 };
     let ray = match source {
         PointSource::At(lamp) => place.toward(lamp.as_vec3()),
-        PointSource::Toward(toward) => place.leave(toward.as_vec3(), f32::INFINITY),
+        PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+            place.leave(toward.as_vec3(), f32::INFINITY)
+        }
     };
     world.transmittance(&ray).is_zero()
 }
@@ -335,7 +353,7 @@ proptest! {
             let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
             let toward = match source {
                 PointSource::At(lamp) => lamp - a,
-                PointSource::Toward(toward) => toward,
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => toward,
             };
             // Light along a face hardly arrives; there the way of a ray is as undecided as its start.
             if (a - b).length() < 0.01 || (normal.dot(toward) / toward.length()).abs() < 0.01 {

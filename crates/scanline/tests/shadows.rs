@@ -31,7 +31,7 @@ impl Screens {
         let onto = |corner: &DVec3| {
             let along = match *source {
                 PointSource::At(at) => *corner - at,
-                PointSource::Toward(toward) => -toward,
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => -toward,
             };
             *corner + along * ((p.y - corner.y) / along.y)
         };
@@ -138,7 +138,9 @@ fn arrives(piece: &Piece, source: &PointSource, occlude: &dyn Occlude) -> f32 {
     let place = piece.hit.place;
     let segment = match *source {
         PointSource::At(at) => place.toward(at.as_vec3()),
-        PointSource::Toward(toward) => place.leave(toward.as_vec3(), f32::INFINITY),
+        PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+            place.leave(toward.as_vec3(), f32::INFINITY)
+        }
     };
     occlude.transmittance(&segment).0[0]
 }
@@ -385,7 +387,7 @@ impl Faces {
     fn stretch(face: &[DVec3; 3], source: &PointSource, a: DVec3, b: DVec3) -> Option<(f64, f64)> {
         let toward = |from: DVec3| match *source {
             PointSource::At(at) => at - from,
-            PointSource::Toward(toward) => toward,
+            PointSource::Toward(toward) | PointSource::Below { toward, .. } => toward,
         };
         let plane = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
         let side = plane.dot(toward(face[0])).signum();
@@ -470,7 +472,7 @@ proptest! {
             let place = piece.hit.place;
             let to = match source {
                 PointSource::At(at) => at - place.position.as_dvec3(),
-                PointSource::Toward(toward) => toward,
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => toward,
             };
             let slant = place.normal.as_dvec3().dot(to.normalize()).abs();
             // Positions are wrong by 4 · 2⁻²⁴ · 15 m, and where light grazes that shifts shadows by 1/slant as much. A

@@ -57,7 +57,7 @@ pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)>
 }
 
 /// A lamp with an extent.
-fn area(lamp: &scene::AreaLight, settings: &Settings) -> AreaLight {
+pub(super) fn area(lamp: &scene::AreaLight, settings: &Settings) -> AreaLight {
     let shape = match lamp.shape {
         scene::AreaShape::Rectangle { size: [width, height] } => {
             // u × v = Y × X = −Z: it shines along the axis.

@@ -78,7 +78,7 @@ impl Standing {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
         let sources = lights::sources(scene, &plan.settings, bodies, maps).into_iter();
         match &self.waters {
-            Some(waters) => sources.map(|source| waters.lit(scene, source)).collect(),
+            Some(waters) => sources.map(|source| waters.lit(scene, &plan.settings, source)).collect(),
             None => sources.collect(),
         }
     }

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use light::{Geometry, Instance, PointSource, Shade, Traverse};
 use scene::Scene;
-use water::Paths;
-use water::flat::{Fill, FlatWater, Lit, Source as Kind, SurfaceShade};
+use water::flat::{Along, Fill, FlatWater, Lit, Rules, Scattered, Source as Kind, SurfaceShade};
+use water::scatter::LAMP_TOLERANCE;
+use water::{Paths, Tolerance};
 
 use super::heavens::SKY;
-use super::lights::SUN;
+use super::lights::{SUN, area};
 use super::qualities::of_scene as quality;
 use crate::Error;
 use crate::knobs::Settings;
@@ -17,7 +18,7 @@ use crate::pipeline::Source;
 /// All waters of a scene; none without any.
 pub(super) struct Waters {
     waters: Arc<[FlatWater]>,
-    paths: Paths,
+    rules: Rules,
 }
 
 impl Waters {
@@ -25,12 +26,8 @@ impl Waters {
     /// A water that there is not, with those that there are.
     pub(super) fn of(scene: &Scene, settings: &Settings) -> Result<Option<Self>, Error> {
         let flat = |water: &scene::Water| Ok(FlatWater::new(quality(water)?, &water.surface, &water.place));
-        let paths = match settings.choice("water.paths") {
-            "thesis" => Paths::Thesis,
-            _ => Paths::Exact,
-        };
         let waters = scene.waters.iter().map(flat).collect::<Result<Arc<[_]>, Error>>()?;
-        Ok((!waters.is_empty()).then_some(Self { waters, paths }))
+        Ok((!waters.is_empty()).then_some(Self { waters, rules: rules(settings) }))
     }
 
     /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
@@ -56,20 +53,44 @@ impl Waters {
         Arc::new(Fill::new(Arc::clone(&self.waters)))
     }
 
-    /// A source as it arrives above and below; its shadows are no straight lines any more. A lamp with an extent stays as
-    /// it is, and goes through water as through air.
-    pub(super) fn lit(&self, scene: &Scene, source: Source) -> Source {
+    /// A source as it arrives above and below; its shadows are no straight lines any more.
+    pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
         let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
         let point = source.point.map(|point| match point {
-            PointSource::Toward(toward) => Kind::Toward(toward),
+            PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
             PointSource::At(position) => Kind::At(position),
         });
         let sky = (source.name == SKY).then_some(Kind::Around);
-        let Some(kind) = sun.or(point).or(sky) else { return source };
+        let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);
+        let lamp = || lamp.map(|lamp| Kind::Area(area(lamp, settings)));
+        let Some(kind) = sun.or(point).or(sky).or_else(lamp) else { return source };
         Source {
-            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.paths)),
+            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.rules)),
             point: None,
             ..source
         }
+    }
+}
+
+fn rules(settings: &Settings) -> Rules {
+    Rules {
+        paths: match settings.choice("water.paths") {
+            "thesis" => Paths::Thesis,
+            _ => Paths::Exact,
+        },
+        scattered: match settings.choice("water.scattering") {
+            "off" => Scattered::Off,
+            "single" => Scattered::Once,
+            _ => Scattered::Often,
+        },
+        along: match settings.choice("water.lamp-integral") {
+            "steps" => Along::Steps(settings.number("water.lamp-step")),
+            _ => {
+                let relative = settings.number("water.lamp-tolerance");
+                Along::Quadrature(Tolerance { relative, ..LAMP_TOLERANCE })
+            }
+        },
+        window: settings.integer("water.sky-rays"),
+        shafts: settings.integer("water.sky-shafts"),
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct Fan {
     pub(crate) d: DVec3,
     /// Where the source is; none for a sun.
     pub(crate) lamp: Option<DVec3>,
+    /// Where light begins, if it is not the source: gradient of what is positive before, and its value at the origin.
+    pub(crate) ceiling: Option<(DVec3, f64)>,
     /// Normal of the plane, of any length.
     pub(crate) normal: DVec3,
     /// Gradients of `along` and `height`: the basis dual to d and e within the plane.
@@ -31,6 +33,8 @@ struct Point {
     along: f64,
     height: f64,
     room: f64,
+    /// How far below the ceiling, in any unit.
+    below: f64,
 }
 
 impl Point {
@@ -44,6 +48,7 @@ impl Point {
             along: mix(self.along, other.along),
             height: mix(self.height, other.height),
             room: mix(self.room, other.room),
+            below: mix(self.below, other.below),
         }
     }
 
@@ -59,6 +64,7 @@ impl Point {
             along: mix(self.along, other.along),
             height: mix(self.height, other.height),
             room: mix(self.room, other.room),
+            below: mix(self.below, other.below),
         }
     }
 }
@@ -77,7 +83,11 @@ impl Fan {
         let d = b - a;
         let (e, lamp) = match *source {
             PointSource::At(at) => (at - a, Some(at)),
-            PointSource::Toward(toward) => (toward, None),
+            PointSource::Toward(toward) | PointSource::Below { toward, .. } => (toward, None),
+        };
+        let ceiling = match *source {
+            PointSource::Below { level, .. } => Some((DVec3::NEG_Y, level)),
+            _ => None,
         };
         let normal = d.cross(e);
         let square = normal.length_squared();
@@ -85,7 +95,7 @@ impl Fan {
         let area = square > least * least;
         let (along, height) = (e.cross(normal) / square, normal.cross(d) / square);
         let sound = area && along.is_finite() && height.is_finite();
-        sound.then_some(Self { a, d, lamp, normal, along, height })
+        sound.then_some(Self { a, d, lamp, ceiling, normal, along, height })
     }
 
     fn point(&self, at: DVec3) -> Point {
@@ -96,6 +106,7 @@ impl Fan {
             height: self.height.dot(from),
             // From the source itself, so that it keeps its digits near by.
             room: self.lamp.map_or(1.0, |lamp| self.height.dot(lamp - at)),
+            below: self.ceiling.map_or(1.0, |(gradient, offset)| gradient.dot(at) + offset),
         }
     }
 
@@ -139,6 +150,7 @@ fn within(p: Point, q: Point) -> Option<(f64, f64)> {
         (p.along, q.along, Some(0.0)),
         (p.room - p.along, q.room - q.along, Some(1.0)),
         (p.height, q.height, None),
+        (p.below, q.below, None),
     ];
     for (at_p, at_q, share) in sides {
         if at_p <= 0.0 && at_q <= 0.0 {

@@ -50,7 +50,7 @@ impl<'a> Gather<'a> {
         let world = self.world;
         let toward = |source: &PointSource| match *source {
             PointSource::At(_) => DVec3::ZERO,
-            PointSource::Toward(toward) => toward,
+            PointSource::Toward(toward) | PointSource::Below { toward, .. } => toward,
         };
         let sieve = Sieve::new(self.fan, toward(source), world.standing.tree.reach);
         let told = self.faces(&world.standing, None, &sieve);
@@ -65,7 +65,9 @@ impl<'a> Gather<'a> {
             // Shares along a segment and a fan are the same in all affine coordinates.
             let source = match *source {
                 PointSource::At(at) => PointSource::At(into.transform_point3(at)),
-                PointSource::Toward(toward) => PointSource::Toward(into.transform_vector3(toward)),
+                PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+                    PointSource::Toward(into.transform_vector3(toward))
+                }
             };
             let (a, b) = (self.fan.a, self.fan.a + self.fan.d);
             let (a, b) = (into.transform_point3(a), into.transform_point3(b));

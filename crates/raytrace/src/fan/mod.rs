@@ -57,7 +57,7 @@ impl World {
     /// the fan, and where the source lies on the segment's own line (light along the surface). False only for
     /// input that is not finite or beyond [`FARTHEST`].
     pub(crate) fn cut(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
-        let (PointSource::At(at) | PointSource::Toward(at)) = *source;
+        let (PointSource::At(at) | PointSource::Toward(at) | PointSource::Below { toward: at, .. }) = *source;
         // Said so that NaN is out of bounds too.
         let near = |p: DVec3| p.abs().max_element() <= FARTHEST && p.is_finite();
         if !(near(a) && near(b) && near(at)) {

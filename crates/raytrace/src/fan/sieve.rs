@@ -107,6 +107,9 @@ impl Sieve {
                 }
             }
         }
+        if let Some((_, level)) = fan.ceiling {
+            high.y = high.y.min(level);
+        }
         // A lamp far away is rounded by more than the padding knows: outwards with it.
         let down = |value: f64| (value - f64::from(pad)).max(f64::from(f32::MIN)) as f32;
         let up = |value: f64| (value + f64::from(pad)).min(f64::from(f32::MAX)) as f32;

@@ -61,10 +61,14 @@ fn nothing_is_overlooked() {
             let long = if n % 2 == 0 { 10.0 } else { 0.1 };
             let a = middle + point(&mut state, 12.0);
             let b = a + point(&mut state, long);
-            let source = match n % 3 {
+            let source = match n % 4 {
                 0 => PointSource::Toward(point(&mut state, 1.0)),
                 // Straight along an axis, with zeros in every gradient.
-                1 => PointSource::Toward(DVec3::AXES[n % 9 / 3]),
+                1 => PointSource::Toward(DVec3::AXES[n % 12 / 4]),
+                2 => {
+                    let toward = point(&mut state, 1.0);
+                    PointSource::Below { toward: toward.with_y(toward.y.abs()), level: a.y.max(b.y) + 1.0 }
+                }
                 _ => PointSource::At(middle + point(&mut state, 20.0)),
             };
             let Some(fan) = Fan::new(&source, a, b) else { panic!("a fan of some size") };

@@ -9,6 +9,7 @@ use crate::transmit;
 
 use super::{
     Acceleration, Crossing, Solids,
+    boxes::Bounds,
     csg::{Compound, Wall},
     fan::Fan,
     member::U,
@@ -200,6 +201,15 @@ impl Solids {
     }
 }
 
+impl Solids {
+    /// Whether the box around any body has something in common with `region`.
+    fn meets(&self, region: Bounds) -> bool {
+        let mut meets = false;
+        self.boxes.within(region, |_| meets = true);
+        meets
+    }
+}
+
 impl Occlude for Solids {
     fn transmittance(&self, segment: &Ray) -> Spectrum {
         let line = line(segment);
@@ -214,6 +224,10 @@ impl Occlude for Solids {
 
     fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
         let fan = Fan::new(source, a, b);
+        // Where bodies pass through the plane is not known: rays must look.
+        if matches!(source, PointSource::Below { .. }) {
+            return !self.meets(fan.bounds());
+        }
         let mut work = Work::default();
         let mut visit = |body: u32| fan.stretches(&self.bodies[body as usize], &mut work, out);
         match self.acceleration {

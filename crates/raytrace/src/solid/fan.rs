@@ -35,7 +35,7 @@ impl Fan {
     pub(crate) fn new(source: &PointSource, a: DVec3, b: DVec3) -> Self {
         let lamp = match *source {
             PointSource::At(lamp) => lamp,
-            PointSource::Toward(_) => DVec3::ZERO,
+            PointSource::Toward(_) | PointSource::Below { .. } => DVec3::ZERO,
         };
         let size = a.abs().max(b.abs()).max(lamp.abs()).max_element();
         Self { source: *source, a, b, plane: OnceCell::new(), size }
@@ -56,7 +56,7 @@ impl Fan {
     pub(crate) fn lamp(&self) -> Option<DVec3> {
         match self.source {
             PointSource::At(lamp) => Some(lamp),
-            PointSource::Toward(_) => None,
+            PointSource::Toward(_) | PointSource::Below { .. } => None,
         }
     }
 
@@ -64,7 +64,7 @@ impl Fan {
     pub(crate) fn sun(&self) -> DVec3 {
         match self.source {
             PointSource::At(_) => DVec3::ZERO,
-            PointSource::Toward(way) => way,
+            PointSource::Toward(way) | PointSource::Below { toward: way, .. } => way,
         }
     }
 
@@ -73,9 +73,12 @@ impl Fan {
         let ends = Bounds::around(&[self.a, self.b]);
         match self.source {
             PointSource::At(p) => ends.union(Bounds { low: p, high: p }).padded(),
-            PointSource::Toward(way) => {
+            PointSource::Toward(way) | PointSource::Below { toward: way, .. } => {
                 let low = DVec3::select(way.cmplt(DVec3::ZERO), DVec3::NEG_INFINITY, ends.padded().low);
-                let high = DVec3::select(way.cmpgt(DVec3::ZERO), DVec3::INFINITY, ends.padded().high);
+                let mut high = DVec3::select(way.cmpgt(DVec3::ZERO), DVec3::INFINITY, ends.padded().high);
+                if let PointSource::Below { level, .. } = self.source {
+                    high.y = high.y.min(level);
+                }
                 Bounds { low, high }
             }
         }
@@ -85,7 +88,9 @@ impl Fan {
     fn pencil(&self) -> Pencil {
         match self.source {
             PointSource::At(lamp) => ([lamp, DVec3::ZERO], [self.a - lamp, self.b - self.a]),
-            PointSource::Toward(way) => ([self.a, self.b - self.a], [way, DVec3::ZERO]),
+            PointSource::Toward(way) | PointSource::Below { toward: way, .. } => {
+                ([self.a, self.b - self.a], [way, DVec3::ZERO])
+            }
         }
     }
 
@@ -102,7 +107,9 @@ impl Fan {
         match self.source {
             // With some room for what is found inexactly.
             PointSource::At(lamp) => (t > -1e-6 && t < 1.0 + 1e-6).then(|| lamp + (place - lamp) * t),
-            PointSource::Toward(way) => (t > -1e-6 * self.size).then(|| place + way * t),
+            PointSource::Toward(way) | PointSource::Below { toward: way, .. } => {
+                (t > -1e-6 * self.size).then(|| place + way * t)
+            }
         }
     }
 
@@ -138,7 +145,7 @@ impl Fan {
         let from = self.a + (self.b - self.a) * s;
         let (way, end) = match self.source {
             PointSource::At(lamp) => (lamp - from, 1.0),
-            PointSource::Toward(way) => (way, f64::INFINITY),
+            PointSource::Toward(way) | PointSource::Below { toward: way, .. } => (way, f64::INFINITY),
         };
         let touch = TOUCH * self.size / way.length();
         let mut blocked = false;

@@ -1,12 +1,19 @@
-//! A source of light as it arrives above and below water.
+//! A source of light as it arrives above and below water, and as water scatters it.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use glam::{DVec2, DVec3, Vec3};
-use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum, fresnel};
+use glam::DVec3;
+use light::{AreaLight, Arrival, Illuminate, Occlude, Place, Ray, Spectrum, Vacuum};
 
 use super::FlatWater;
-use crate::{Leg, Loss, Paths, SunBelow, Way, mirrored_sun};
+use super::along::Beside;
+use super::arriving::{At, Receive};
+use super::fill::filling;
+use super::points::Point;
+use super::rules::{Rules, Scattered};
+use super::shafts::{Parallel, on_surface};
+use super::window::{Glow, Window, lit};
+use crate::{Loss, Scattering, SunBelow, ViewRay, Way};
 
 /// What kind of source it is, which says how its light finds its way through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,185 +22,183 @@ pub enum Source {
     Toward(DVec3),
     /// A luminaire at this point \[m\].
     At(DVec3),
+    /// A lamp with an extent: as it says itself where its light meets no surface; elsewhere as many points as it has samples.
+    Area(AreaLight),
     /// All around: sky and ground.
     Around,
 }
 
-/// Directions asked for in the place of a whole sky seen from under water.
-const DIRECTIONS: u32 = 256;
+/// Which part of a source's light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Part {
+    /// All of it.
+    #[default]
+    All,
+    /// What meets no water surface.
+    Direct,
+    /// What a water surface reflects, from above or from below.
+    Reflected,
+    /// What passes a water surface.
+    Through,
+}
+
+impl Part {
+    /// Whether this part belongs to what is asked for.
+    pub(super) fn has(self, part: Self) -> bool {
+        self == Self::All || self == part
+    }
+}
 
 /// Places nearer to a surface than this \[m\] lie on it, and see neither its mirror images nor through it.
 const ON: f64 = 1e-4;
+
+/// Optical depth after which nothing is left of scattered light: e⁻²⁰ is 2e-9.
+const DEEP: f64 = 20.0;
+/// View rays without end are followed no farther than this \[m\].
+const FARTHEST: f64 = 1e5;
 
 /// Light of a source with flat water around: direct, mirrored by the surface from above (3.2, 3.10) or from below (3.14), and through
 /// it (3.6, 3.11 and 3.12 repaired), dimmed under water by K = a + b_b.
 ///
 /// The inner source is asked for what arrives at the *surface point*, with its own distribution and its shadows on that leg; from there the
-/// bundle spreads as [`Leg`] says, and the second leg is asked for by one ray. Beams keep no radius beyond the surface.
+/// bundle spreads as [`crate::Leg`] says, and the second leg is asked for by one ray. Beams keep no radius beyond the surface. The sky
+/// under water is looked for in fixed directions ([`Rules::window`]).
 ///
-/// *Left out.* Water seen through water (two surfaces on one path); beside the outline light passes straight.
+/// Of what the water scatters into a view ray: the sun's light in closed form between shadows (3.31), as from the middle of its disc; the
+/// sky's from a table, with the shadows of a few directions; a lamp's by quadrature to a stated error or by the thesis' steps, a lamp's
+/// with an extent as if from its middle.
+///
+/// *Left out.* Water seen through water (two surfaces on one path); beside the outline light passes straight; the sky mirrored by the
+/// surface.
 pub struct Lit {
-    inner: Box<dyn Illuminate>,
-    source: Source,
+    pub(super) inner: Box<dyn Illuminate>,
+    pub(super) source: Source,
     waters: Arc<[FlatWater]>,
-    paths: Paths,
+    pub(super) rules: Rules,
+    pub(super) part: Part,
+    held: Vec<Held>,
+}
+
+/// What is known of one of the waters.
+struct Held {
+    scattering: Scattering,
+    sun: Option<(Parallel, SunBelow)>,
+    window: OnceLock<Window>,
+    glow: OnceLock<Glow>,
 }
 
 impl Lit {
     /// `inner`, which is a `source`, with these waters around.
-    pub fn new(inner: Box<dyn Illuminate>, source: Source, waters: Arc<[FlatWater]>, paths: Paths) -> Self {
-        Self { inner, source, waters, paths }
+    pub fn new(inner: Box<dyn Illuminate>, source: Source, waters: Arc<[FlatWater]>, rules: Rules) -> Self {
+        let held = |water: &FlatWater| {
+            let scattering = Scattering::new(water.water.clone(), water.surface.level, Loss::Diffuse);
+            Held {
+                scattering: if rules.scattered == Scattered::Often { scattering.often() } else { scattering },
+                sun: match source {
+                    Source::Toward(toward) => sun_below(water, toward, &*inner),
+                    _ => None,
+                },
+                window: OnceLock::new(),
+                glow: OnceLock::new(),
+            }
+        };
+        let held = waters.iter().map(held).collect();
+        Self { inner, source, waters, rules, part: Part::All, held }
+    }
+
+    /// Only one part of its light: the parts add up to [`Part::All`].
+    pub fn only(self, part: Part) -> Self {
+        Self { part, ..self }
     }
 
     /// The water that a point is in, and how deep.
-    fn under(&self, point: DVec3) -> Option<(&FlatWater, f64)> {
-        self.waters
-            .iter()
-            .find_map(|water| Some((water, water.depth(point)?)))
-            .filter(|(_, depth)| *depth > ON)
+    fn under(&self, point: DVec3) -> Option<(usize, f64)> {
+        let depths = self.waters.iter().enumerate();
+        depths.filter_map(|(i, water)| Some((i, water.depth(point)?))).find(|(_, depth)| *depth > ON)
     }
 
-    /// What arrives at a place under water.
-    fn below(&self, at: &At, receive: Receive<'_>) {
+    /// Where a lamp is; none for what is far away.
+    pub(super) fn lamp(&self) -> Option<DVec3> {
         match self.source {
-            Source::Around => at.sky(receive, self),
+            Source::At(at) => Some(at),
+            Source::Area(lamp) => Some(lamp.centre.as_dvec3()),
+            Source::Toward(_) | Source::Around => None,
+        }
+    }
+
+    /// How many points its lamp shines from.
+    pub(super) fn count(&self) -> u32 {
+        if let Source::Area(lamp) = self.source { lamp.samples.max(1) } else { 1 }
+    }
+
+    /// Point `i` of `count` of its lamp, for light towards `to`.
+    pub(super) fn point(&self, (i, count): (u32, u32), to: DVec3) -> Option<Point<'_>> {
+        match &self.source {
+            Source::At(at) => Some(Point::luminaire(*at, &*self.inner)),
+            Source::Area(lamp) => Some(Point::part(lamp, (i, count), to)),
+            Source::Toward(_) | Source::Around => None,
+        }
+    }
+
+    /// What arrives at a place under water number `i`.
+    fn below(&self, i: usize, at: &At, receive: Receive<'_>) {
+        match self.source {
+            Source::Around if self.part.has(Part::Through) => {
+                let sky = |toward| self.inner.radiance(&above(at.water, toward));
+                let window = &self.held[i].window;
+                let window = window.get_or_init(|| Window::new(at.water, self.rules.window, sky));
+                let irradiance = window.irradiance(at.water, (at.place, at.depth), at.occlude);
+                if !irradiance.is_zero() {
+                    receive(Arrival::Field { irradiance });
+                }
+            }
+            Source::Around => {}
             Source::Toward(toward) => at.sun_below(receive, self, toward),
-            Source::At(lamp) if at.water.surface.is_below(lamp) => {
-                let length = lamp.distance(at.place.position.as_dvec3());
-                let left = at.left(length);
-                self.inner.arrivals(at.place, at.occlude, &mut |arrival| match arrival {
-                    Arrival::Beam { toward, irradiance, .. } => At::give(receive, toward, irradiance * left),
-                    Arrival::Field { irradiance } => {
-                        receive(Arrival::Field { irradiance: irradiance * left })
-                    }
-                });
-                at.lamp(receive, self, lamp);
+            Source::At(_) | Source::Area(_) => {
+                let lamp = self.lamp().unwrap_or_default();
+                if at.water.surface.is_below(lamp) && self.part.has(Part::Direct) {
+                    let left = at.left(lamp.distance(at.place.position.as_dvec3()));
+                    self.inner.arrivals(at.place, at.occlude, &mut |arrival| {
+                        receive(match arrival {
+                            Arrival::Beam { toward, irradiance, radius } => {
+                                Arrival::Beam { toward, irradiance: irradiance * left, radius }
+                            }
+                            Arrival::Field { irradiance } => Arrival::Field { irradiance: irradiance * left },
+                        });
+                    });
+                }
+                at.lamp(receive, self);
             }
-            Source::At(lamp) => at.lamp(receive, self, lamp),
-        }
-    }
-}
-
-/// Whoever is told what arrives.
-type Receive<'a> = &'a mut dyn FnMut(Arrival);
-
-/// A place beside a surface.
-struct At<'a> {
-    water: &'a FlatWater,
-    place: &'a Place,
-    /// How far below the surface the place lies \[m\]; negative above.
-    depth: f64,
-    occlude: &'a dyn Occlude,
-}
-
-impl At<'_> {
-    fn foot(&self) -> DVec2 {
-        let p = self.place.position.as_dvec3();
-        DVec2::new(p.x, p.z)
-    }
-
-    fn give(receive: Receive<'_>, toward: Vec3, irradiance: Spectrum) {
-        if !irradiance.is_zero() {
-            receive(Arrival::Beam { toward, irradiance, radius: None });
         }
     }
 
-    /// The point of the surface at x, z as a place that is lit from above or from below; none beside the outline.
-    fn surface(&self, at: DVec2, above: bool) -> Option<Place> {
-        let position = DVec3::new(at.x, self.water.surface.level, at.y).as_vec3();
-        let error = 4.0 * f32::EPSILON * position.abs().max_element() + f32::MIN_POSITIVE;
-        let normal = if above { Vec3::Y } else { Vec3::NEG_Y };
-        self.water.covers(at).then_some(Place { position, error, normal, seed: self.place.seed })
-    }
-
-    /// What a path of `length` metres under water leaves of light that lights things.
-    fn left(&self, length: f64) -> Spectrum {
-        self.water.water.loss(Loss::Diffuse).attenuate(length as f32)
-    }
-
-    /// By way of the surface point at x, z, whose light comes from above or from below: what arrives there on a plane that faces it, past what
-    /// hides the place from there; with the direction to it.
-    fn by_way_of(&self, lit: &Lit, at: DVec2, above: bool) -> Option<(Vec3, Spectrum)> {
-        let surface = self.surface(at, above)?;
-        let way = self.place.toward(surface.position);
-        let seen = self.occlude.transmittance(&way);
-        if seen.is_zero() {
-            return None;
-        }
-        let mut sum = Spectrum::ZERO;
-        lit.inner.arrivals(&surface, self.occlude, &mut |arrival| {
-            if let Arrival::Beam { irradiance, .. } = arrival {
-                sum += irradiance;
-            }
-        });
-        Some((way.direction, sum * seen))
-    }
-
-    /// From a lamp, off the surface if it is on the place's own side of it, through it if not.
-    fn lamp(&self, receive: Receive<'_>, lit: &Lit, lamp: DVec3) {
-        let (surface, place) = (&self.water.surface, self.place.position.as_dvec3());
-        let same_side = surface.is_below(lamp) == (self.depth > 0.0);
-        let leg = match same_side {
-            true => surface.mirrored(lamp, place),
-            false => surface.refracted(lamp, place, lit.paths),
+    /// The sun's light that a view ray gains.
+    fn sun_along(&self, i: usize, ray: &ViewRay, occlude: &dyn Occlude) -> Spectrum {
+        let (water, held) = (&self.waters[i], &self.held[i]);
+        let Some((light, sun)) = &held.sun else { return Spectrum::ZERO };
+        let shafts = light.shafts(water, ray, occlude);
+        let whole = if shafts.is_empty() {
+            Spectrum::ZERO
+        } else {
+            held.scattering.sun(sun, ray, &[[0.0, ray.length]])
         };
-        let Some(leg) = leg else { return };
-        let Some(point) = leg.at_surface else { return };
-        if let Some((toward, there)) =
-            self.by_way_of(lit, DVec2::new(point.x, point.z), !surface.is_below(lamp))
-        {
-            Self::give(receive, toward, there * self.left(leg.water) * beyond(&leg, lamp.distance(point)));
-        }
+        lit(&held.scattering, sun, ray, (&shafts, whole))
     }
 
-    /// The sun through the surface.
-    fn sun_below(&self, receive: Receive<'_>, lit: &Lit, toward: DVec3) {
-        let Some(sun) = SunBelow::new(&self.water.surface, toward, Spectrum::ONE) else { return };
-        let run = DVec2::new(sun.toward.x, sun.toward.z) * (self.depth / sun.toward.y);
-        if let Some((toward, there)) = self.by_way_of(lit, self.foot() + run, true) {
-            Self::give(receive, toward, there * sun.facing(self.depth, self.water.water.loss(Loss::Diffuse)));
-        }
-    }
-
-    /// The sun's mirror image in the surface.
-    fn sun_mirrored(&self, receive: Receive<'_>, lit: &Lit, toward: DVec3) {
-        let Some((image, share)) = mirrored_sun(&self.water.surface, toward, Spectrum::ONE) else { return };
-        let run = DVec2::new(image.x, image.z) * (self.depth / image.y);
-        if let Some((toward, there)) = self.by_way_of(lit, self.foot() + run, true) {
-            Self::give(receive, toward, there * share);
-        }
-    }
-
-    /// The sky through Snell's window, by directions spread evenly over it: Σ n² T L cos′ ΔΩ′.
-    fn sky(&self, receive: Receive<'_>, lit: &Lit) {
-        let (n, normal) = (self.water.surface.index, self.place.normal);
-        let window = 1.0 - (1.0 - 1.0 / (n * n)).sqrt();
-        let each = std::f64::consts::TAU * window / f64::from(DIRECTIONS);
-        let mut sum = Spectrum::ZERO;
-        for i in 0..DIRECTIONS {
-            let [along, turn] = light::sampling::lattice(i, DIRECTIONS, [0, 0]);
-            let up = 1.0 - (f64::from(along) + 0.5 / f64::from(DIRECTIONS)).min(1.0) * window;
-            let (s, c) = (f64::from(turn) * std::f64::consts::TAU).sin_cos();
-            let level = (1.0 - up * up).max(0.0).sqrt();
-            let inner = DVec3::new(level * c, up, level * s);
-            let cosine = inner.as_vec3().dot(normal);
-            if cosine <= 0.0 {
-                continue;
-            }
-            let at = self.foot() + DVec2::new(inner.x, inner.z) * (self.depth / up);
-            let Some(surface) = self.surface(at, true) else { continue };
-            let sin = (level * n).min(1.0);
-            let cos = (1.0 - sin * sin).sqrt();
-            let outer = DVec3::new(sin * c, cos, sin * s).as_vec3();
-            let seen = self.occlude.transmittance(&self.place.toward(surface.position))
-                * self.occlude.transmittance(&surface.leave(outer, f32::INFINITY));
-            let radiance = lit.inner.radiance(&Ray::new(surface.position, outer));
-            let weight = n * n * (1.0 - fresnel(n, cos)) * each * f64::from(cosine);
-            sum += radiance * seen * self.left(self.depth / up) * weight as f32;
-        }
-        if !sum.is_zero() {
-            receive(Arrival::Field { irradiance: sum });
-        }
+    /// The same of a lamp's.
+    fn lamp_along(&self, i: usize, ray: &ViewRay, occlude: &dyn Occlude) -> Spectrum {
+        let (water, scattering) = (&self.waters[i], &self.held[i].scattering);
+        let Some(lamp) = self.point((0, 1), ray.from) else { return Spectrum::ZERO };
+        // A lamp in another water is left out.
+        let inside = water.depth(lamp.at).is_some_and(|depth| depth > 0.0);
+        let ways: &[(Way, Part)] = match inside {
+            true => &[(Way::Direct, Part::Direct), (Way::Mirrored, Part::Reflected)],
+            false if !water.surface.is_below(lamp.at) => &[(Way::Refracted, Part::Through)],
+            false => &[],
+        };
+        let beside = Beside { water, scattering, lamp: &lamp, ray, occlude };
+        let ways = ways.iter().filter(|(_, part)| self.part.has(*part));
+        ways.map(|(way, _)| beside.radiance(*way, self.rules.along)).sum()
     }
 }
 
@@ -209,25 +214,29 @@ impl Illuminate for Lit {
         occlude: &dyn Occlude,
         receive: &mut dyn FnMut(Arrival),
     ) {
-        if let Some((water, depth)) = self.under(place.position.as_dvec3()) {
-            return self.below(&At { water, place, depth, occlude }, receive);
+        if let Some((i, depth)) = self.under(place.position.as_dvec3()) {
+            return self.below(i, &At { water: &self.waters[i], place, depth, occlude }, receive);
         }
-        let from_below = |water: &&FlatWater| matches!(self.source, Source::At(lamp) if water.depth(lamp).is_some_and(|depth| depth > 0.0));
-        let lamp_in = self.waters.iter().find(from_below);
-        if lamp_in.is_none() {
+        let lamp = self.lamp();
+        let lamp_in = self
+            .waters
+            .iter()
+            .position(|water| lamp.is_some_and(|lamp| water.depth(lamp).is_some_and(|depth| depth > 0.0)));
+        if lamp_in.is_none() && self.part.has(Part::Direct) {
             self.inner.arrivals_on(face, place, occlude, receive);
         }
-        for water in self.waters.iter() {
+        for (i, water) in self.waters.iter().enumerate() {
             let depth = water.surface.level - f64::from(place.position.y);
             if depth >= -ON {
                 continue;
             }
             let at = At { water, place, depth, occlude };
-            match (self.source, lamp_in) {
+            match (self.source, lamp) {
                 (Source::Toward(toward), _) => at.sun_mirrored(receive, self, toward),
-                (Source::At(lamp), None) if !water.surface.is_below(lamp) => at.lamp(receive, self, lamp),
-                (Source::At(lamp), Some(inside)) if std::ptr::eq(inside, water) => {
-                    at.lamp(receive, self, lamp)
+                (_, Some(lamp))
+                    if lamp_in == Some(i) || (lamp_in.is_none() && !water.surface.is_below(lamp)) =>
+                {
+                    at.lamp(receive, self);
                 }
                 _ => {}
             }
@@ -235,14 +244,42 @@ impl Illuminate for Lit {
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {
-        self.inner.radiance(ray)
+        if self.part.has(Part::Direct) { self.inner.radiance(ray) } else { Spectrum::ZERO }
+    }
+
+    fn scattered(&self, ray: &Ray, occlude: &dyn Occlude) -> Spectrum {
+        let Some(i) = filling(&self.waters, ray) else { return Spectrum::ZERO };
+        let (water, held) = (&self.waters[i], &self.held[i]);
+        if self.rules.scattered == Scattered::Off || water.water.scattering().is_zero() {
+            return Spectrum::ZERO;
+        }
+        let least = held.scattering.coefficient().0.iter().fold(f32::INFINITY, |least, k| least.min(*k));
+        let view = ViewRay {
+            from: ray.origin.as_dvec3(),
+            direction: ray.direction.as_dvec3().normalize(),
+            length: f64::from(ray.length).min(DEEP / f64::from(least)).min(FARTHEST),
+        };
+        match self.source {
+            Source::Toward(_) if self.part.has(Part::Through) => self.sun_along(i, &view, occlude),
+            Source::Around if self.part.has(Part::Through) => {
+                let sky = |toward| self.inner.radiance(&above(water, toward));
+                let glow = || Glow::new(held.scattering.clone(), self.rules.shafts, sky);
+                held.glow.get_or_init(glow).radiance(water, &view, occlude)
+            }
+            Source::Toward(_) | Source::Around => Spectrum::ZERO,
+            Source::At(_) | Source::Area(_) => self.lamp_along(i, &view, occlude),
+        }
     }
 }
 
-/// Irradiance at the end of a way by the surface over that at the surface, `first` metres from the source.
-fn beyond(leg: &Leg, first: f64) -> f32 {
-    match leg.way {
-        Way::Direct => 1.0,
-        _ => (leg.share * leg.spread * first * first) as f32,
-    }
+/// A ray to the sky from a water.
+fn above(water: &FlatWater, toward: glam::Vec3) -> Ray {
+    Ray::new(water.middle().as_vec3(), toward)
+}
+
+/// The sun under a water; its irradiance is the same everywhere.
+fn sun_below(water: &FlatWater, toward: DVec3, inner: &dyn Illuminate) -> Option<(Parallel, SunBelow)> {
+    let facing = Point::luminaire(toward, inner).facing(&on_surface(water.middle(), 0), &Vacuum);
+    let sun = SunBelow::new(&water.surface, toward, facing)?;
+    Some((Parallel { below: sun.toward, above: toward.normalize_or_zero() }, sun))
 }

@@ -1,13 +1,20 @@
 //! Water under a flat surface: where it is, what light does at its surface and below.
 
+mod along;
+mod arriving;
 mod fill;
 mod lit;
+mod points;
 mod region;
+mod rules;
 mod shade;
+mod shafts;
+mod window;
 
 pub use fill::Fill;
-pub use lit::{Lit, Source};
+pub use lit::{Lit, Part, Source};
 pub use region::FlatWater;
+pub use rules::{Along, Rules, Scattered};
 pub use shade::SurfaceShade;
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Where flat water is.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DVec2, DVec3};
 use light::Mesh;
 
@@ -14,6 +16,8 @@ pub struct FlatWater {
     pub surface: Surface,
     /// The surface in triangles, x and z in the world \[m\].
     triangles: Vec<[DVec2; 3]>,
+    /// Edges of one triangle only: the outline.
+    outline: Vec<[DVec2; 2]>,
     low: DVec2,
     high: DVec2,
 }
@@ -33,6 +37,7 @@ impl FlatWater {
             surface: Surface::of(&water, place.translation.y),
             water,
             triangles,
+            outline: outline(mesh).into_iter().map(|edge| edge.map(at)).collect(),
         }
     }
 
@@ -46,6 +51,44 @@ impl FlatWater {
     pub fn depth(&self, point: DVec3) -> Option<f64> {
         self.covers(DVec2::new(point.x, point.z)).then_some(self.surface.level - point.y)
     }
+
+    /// A point of the surface's height in the middle of all of it.
+    pub(super) fn middle(&self) -> DVec3 {
+        let at = self.low.midpoint(self.high);
+        DVec3::new(at.x, self.surface.level, at.y)
+    }
+
+    /// The stretches of the way from `a` to `b` (x, z) over which there is a surface, as rising shares of the way.
+    pub(super) fn stretches(&self, a: DVec2, b: DVec2) -> Vec<[f64; 2]> {
+        let mut ends: Vec<f64> = self.outline.iter().filter_map(|edge| crossing(edge, a, b - a)).collect();
+        if ends.is_empty() {
+            return if self.covers(a.midpoint(b)) { vec![[0.0, 1.0]] } else { Vec::new() };
+        }
+        ends.extend([0.0, 1.0]);
+        ends.sort_by(f64::total_cmp);
+        let stretches = ends.windows(2).map(|ends| [ends[0], ends[1]]);
+        stretches.filter(|[from, to]| from < to && self.covers(a.lerp(b, 0.5 * (from + to)))).collect()
+    }
+}
+
+/// Edges that no two triangles share.
+fn outline(mesh: &Mesh) -> Vec<[u32; 2]> {
+    let mut count = BTreeMap::new();
+    for [a, b, c] in &mesh.triangles {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            *count.entry([*from.min(to), *from.max(to)]).or_insert(0u32) += 1;
+        }
+    }
+    count.into_iter().filter(|(_, count)| *count == 1).map(|(edge, _)| edge).collect()
+}
+
+/// Where on its way from `a` by `way` a point crosses an edge, as a share within 0 and 1.
+fn crossing([from, to]: &[DVec2; 2], a: DVec2, way: DVec2) -> Option<f64> {
+    let (edge, start) = (*to - *from, *from - a);
+    let across = way.perp_dot(edge);
+    let (along, on_edge) = (start.perp_dot(edge) / across, start.perp_dot(way) / across);
+    // Parallel ones give no number.
+    (along > 0.0 && along < 1.0 && (0.0..=1.0).contains(&on_edge)).then_some(along)
 }
 
 /// Whether a point lies in a triangle of either orientation.

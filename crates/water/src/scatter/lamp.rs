@@ -35,7 +35,7 @@ impl Scattering {
     ) -> Integral<BANDS> {
         let ways: &[Way] =
             if self.surface.is_below(at) { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
-        let parts = ways.iter().map(|&way| self.by_way(way, at, light, ray, breaks, tolerance));
+        let parts = ways.iter().map(|&way| self.lamp_by_way(way, at, light, ray, breaks, tolerance));
         parts.fold(Integral { value: [0.0; BANDS], error: 0.0, evaluations: 0 }, |sum, part| Integral {
             value: std::array::from_fn(|b| sum.value[b] + part.value[b]),
             error: sum.error + part.error,
@@ -43,7 +43,8 @@ impl Scattering {
         })
     }
 
-    fn by_way(
+    /// The same of the light that comes by one way only.
+    pub fn lamp_by_way(
         &self,
         way: Way,
         at: DVec3,
@@ -92,7 +93,7 @@ impl Scattering {
     }
 
     /// β(Θ) E(r) e^(−κ r) of light that comes by one way \[W m⁻³ sr⁻¹ nm⁻¹\].
-    pub(super) fn per_metre(
+    pub(crate) fn per_metre(
         &self,
         way: Way,
         at: DVec3,

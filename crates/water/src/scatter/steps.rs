@@ -45,12 +45,29 @@ impl Scattering {
     ) -> Stepped {
         let below = self.surface.is_below(at);
         let ways: &[Way] = if below { &[Way::Direct, Way::Mirrored] } else { &[Way::Refracted] };
-        let start = if below { nearest_to_axis(at, axis, ray) } else { 0.0 };
-        let mut sum = Stepped::default();
-        for &way in ways {
-            for (sign, room) in [(1.0, ray.length - start), (-1.0, start)] {
-                self.walk(way, at, light, ray, steps, [start, sign, room], &mut sum);
+        ways.iter().fold(Stepped::default(), |sum, &way| {
+            let part = self.steps_by_way(way, (at, axis), light, ray, steps);
+            Stepped {
+                radiance: std::array::from_fn(|b| sum.radiance[b] + part.radiance[b]),
+                evaluations: sum.evaluations + part.evaluations,
             }
+        })
+    }
+
+    /// The same of the light that comes by one way only, of a luminaire `at` a point with an axis (0: none, and the walk starts nearest
+    /// to the luminaire itself).
+    pub fn steps_by_way(
+        &self,
+        way: Way,
+        (at, axis): (DVec3, DVec3),
+        light: &Light,
+        ray: &ViewRay,
+        steps: &Steps,
+    ) -> Stepped {
+        let start = if way == Way::Refracted { 0.0 } else { nearest_to_axis(at, axis, ray) };
+        let mut sum = Stepped::default();
+        for (sign, room) in [(1.0, ray.length - start), (-1.0, start)] {
+            self.walk(way, at, light, ray, steps, [start, sign, room], &mut sum);
         }
         sum
     }

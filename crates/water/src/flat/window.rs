@@ -1,0 +1,140 @@
+//! The sky through Snell's window.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3, Vec3};
+use light::{Occlude, Place, Spectrum, fresnel};
+
+use super::FlatWater;
+use super::shafts::{Parallel, Shaft, on_surface};
+use crate::{Loss, ScatteredSky, Scattering, SkyBelow, SunBelow, ViewRay};
+
+/// One direction out of many that stand for the sky.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// Towards it.
+    light: Parallel,
+    /// Irradiance just under the surface on a plane that faces it, n² T L ΔΩ′ \[W m⁻² nm⁻¹\].
+    facing: Spectrum,
+}
+
+/// The sky through Snell's window, as surfaces under water receive it.
+///
+/// How much there is with nothing in the way a table knows ([`SkyBelow`]). The share of it that arrives is looked for in
+/// directions that stand still, spread evenly over the window, each weighed with what would arrive from it: no noise, and where all
+/// is seen, or nothing, no error.
+pub(super) struct Window {
+    table: SkyBelow,
+    looks: Vec<Look>,
+    coefficient: Spectrum,
+}
+
+impl Window {
+    /// Of a sky of `radiance` by unit vector, looked for in `count` directions.
+    pub(super) fn new(water: &FlatWater, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
+        let coefficient = water.water.loss(Loss::Diffuse);
+        let table = SkyBelow::new(&water.surface, coefficient, &radiance);
+        Self { table, looks: looks(water.surface.index, count, radiance), coefficient }
+    }
+
+    /// Irradiance on the plane of `place`, `depth` metres deep \[W m⁻² nm⁻¹\].
+    pub(super) fn irradiance(
+        &self,
+        water: &FlatWater,
+        (place, depth): (&Place, f64),
+        occlude: &dyn Occlude,
+    ) -> Spectrum {
+        let (mut all, mut seen) = (Spectrum::ZERO, Spectrum::ZERO);
+        let foot = DVec2::new(f64::from(place.position.x), f64::from(place.position.z));
+        for look in &self.looks {
+            let below = look.light.below;
+            let cosine = below.as_vec3().dot(place.normal);
+            if cosine <= 0.0 {
+                continue;
+            }
+            let own = look.facing * self.coefficient.attenuate((depth / below.y) as f32) * cosine;
+            all += own;
+            let at = foot + DVec2::new(below.x, below.z) * (depth / below.y);
+            if !water.covers(at) {
+                continue;
+            }
+            let surface = on_surface(DVec3::new(at.x, water.surface.level, at.y), place.seed);
+            let near = occlude.transmittance(&place.toward(surface.position));
+            if !near.is_zero() {
+                let far = occlude.transmittance(&surface.leave(look.light.above.as_vec3(), f32::INFINITY));
+                seen += own * near * far;
+            }
+        }
+        self.table.irradiance(depth, place.normal) * share(seen, all)
+    }
+}
+
+/// The sky's light that the water scatters towards the eye: how much with nothing in the way from a table ([`ScatteredSky`]), of which
+/// the share arrives that comes by a few directions, each between its own shadows along the ray.
+pub(super) struct Glow {
+    table: ScatteredSky,
+    looks: Vec<(Parallel, SunBelow)>,
+}
+
+impl Glow {
+    /// Of a sky of `radiance` by unit vector, in `count` directions.
+    pub(super) fn new(scattering: Scattering, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
+        let sun = |look: Look| {
+            let horizontal = look.facing * look.light.below.y as f32;
+            (look.light, SunBelow { toward: look.light.below, horizontal })
+        };
+        let looks = looks(scattering.surface().index, count, &radiance).into_iter().map(sun).collect();
+        Self { table: ScatteredSky::new(scattering, radiance), looks }
+    }
+
+    /// Radiance at the ray's origin \[W m⁻² sr⁻¹ nm⁻¹\].
+    pub(super) fn radiance(&self, water: &FlatWater, ray: &ViewRay, occlude: &dyn Occlude) -> Spectrum {
+        let scattering = self.table.scattering();
+        let (mut all, mut seen) = (Spectrum::ZERO, Spectrum::ZERO);
+        for (light, sun) in &self.looks {
+            let whole = scattering.sun(sun, ray, &[[0.0, ray.length]]);
+            all += whole;
+            seen += lit(scattering, sun, ray, (&light.shafts(water, ray, occlude), whole));
+        }
+        self.table.radiance(ray) * share(seen, all)
+    }
+}
+
+/// Radiance of parallel light scattered along the stretches of `ray` that it reaches, `whole` if that is all of it.
+pub(super) fn lit(
+    scattering: &Scattering,
+    sun: &SunBelow,
+    ray: &ViewRay,
+    (shafts, whole): (&[Shaft], Spectrum),
+) -> Spectrum {
+    match shafts {
+        [Shaft { from, to, share }] if *from <= 0.0 && *to >= ray.length => whole * *share,
+        _ => shafts.iter().map(|s| scattering.sun(sun, ray, &[[s.from, s.to]]) * s.share).sum(),
+    }
+}
+
+/// Directions spread evenly over the window: what comes from each.
+fn looks(n: f64, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Vec<Look> {
+    let window = 1.0 - (1.0 - 1.0 / (n * n)).sqrt();
+    let each = TAU * window / f64::from(count);
+    let look = |i: u32| {
+        let [along, turn] = light::sampling::lattice(i, count, [0, 0]);
+        let up = 1.0 - (f64::from(along) + 0.5 / f64::from(count)).min(1.0) * window;
+        let (s, c) = (f64::from(turn) * TAU).sin_cos();
+        let level = (1.0 - up * up).max(0.0).sqrt();
+        let sin = (level * n).min(1.0);
+        let cos = (1.0 - sin * sin).sqrt();
+        let light = Parallel {
+            below: DVec3::new(level * c, up, level * s),
+            above: DVec3::new(sin * c, cos, sin * s),
+        };
+        let share = n * n * (1.0 - fresnel(n, cos)) * each;
+        Look { light, facing: radiance(light.above.as_vec3()) * share as f32 }
+    };
+    (0..count).map(look).collect()
+}
+
+/// Band by band; 1 where there is nothing to share.
+fn share(seen: Spectrum, all: Spectrum) -> Spectrum {
+    Spectrum(std::array::from_fn(|b| if all[b] > 0.0 { (seen[b] / all[b]).min(1.0) } else { 1.0 }))
+}
