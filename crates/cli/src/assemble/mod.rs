@@ -6,6 +6,7 @@ mod lights;
 mod maps;
 mod materials;
 mod open_sky;
+mod qualities;
 mod solids;
 mod waters;
 
@@ -31,6 +32,7 @@ pub(crate) use lights::outline;
 pub use maps::Maps;
 pub(crate) use materials::mirrors;
 pub(crate) use open_sky::OpenSky;
+pub(crate) use qualities::{Optics, waters as water_names};
 
 /// Builds the stages that `plan` names for `scene`.
 ///

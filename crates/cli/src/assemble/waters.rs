@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use light::{Geometry, Instance, PointSource, Shade, Spectrum, Traverse};
+use light::{Geometry, Instance, PointSource, Shade, Traverse};
 use scene::Scene;
+use water::Paths;
 use water::flat::{Fill, FlatWater, Lit, Source as Kind, SurfaceShade};
-use water::{Paths, Water};
 
 use super::heavens::SKY;
 use super::lights::SUN;
+use super::qualities::of_scene as quality;
 use crate::Error;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
@@ -76,21 +77,4 @@ impl Waters {
             ..source
         }
     }
-}
-
-/// The water that absorbs and scatters nothing.
-const CLEAR: &str = "clear";
-
-fn quality(asked: &scene::Water) -> Result<Water, Error> {
-    let fault =
-        |error: &dyn std::fmt::Display| Error::Content(format!("[[water]] {:?}: {error}", asked.name));
-    let named = match asked.quality.as_str() {
-        CLEAR => {
-            Water::named("distilled").and_then(|water| Water::new(Spectrum::ZERO, Vec::new(), water.index()))
-        }
-        name => Water::named(name),
-    };
-    let named = named.map_err(|error| fault(&error))?;
-    let Some(index) = asked.index else { return Ok(named) };
-    Water::new(named.absorption(), named.scatterers().to_vec(), index).map_err(|error| fault(&error))
 }

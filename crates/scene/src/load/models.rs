@@ -1,9 +1,10 @@
 //! Models: read once, placed as often as the file says.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use light::{Instance, Mesh};
 
 use super::draft::Draft;
@@ -23,9 +24,55 @@ pub(crate) struct Library(Vec<(PathBuf, BTreeMap<String, MaterialTable>, Shelved
 /// A model whose meshes and materials are in the scene already.
 struct Shelved {
     instances: Vec<Instance>,
+    /// The name of each one's node.
+    nodes: Vec<Arc<str>>,
     cameras: Vec<gltf::ModelCamera>,
     lights: Vec<gltf::PunctualLight>,
     path: PathBuf,
+}
+
+/// Nodes of models that something else than the picture wants: surfaces of water.
+#[derive(Default)]
+pub(crate) struct Claims {
+    /// Who claims what.
+    pub(crate) of: Vec<Claim>,
+    /// What was found.
+    pub(crate) found: Vec<Found>,
+    /// Names of all nodes, for messages; kept only if there are claims.
+    pub(crate) names: BTreeSet<Arc<str>>,
+}
+
+/// A water (its number from 0) and the node that is its surface, in a certain model or in any.
+pub(crate) struct Claim {
+    pub(crate) water: usize,
+    pub(crate) model: Option<String>,
+    pub(crate) node: String,
+}
+
+/// A part of a claimed node.
+pub(crate) struct Found {
+    pub(crate) water: usize,
+    pub(crate) mesh: Mesh,
+    pub(crate) world_from_mesh: DAffine3,
+}
+
+impl Found {
+    /// All its corners in the coordinates of the scene file \[m\].
+    pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.mesh.positions.iter().map(|corner| self.world_from_mesh.transform_point3(corner.as_dvec3()))
+    }
+}
+
+impl Claims {
+    fn claim(&mut self, model: Option<&str>, node: &Arc<str>) -> Option<usize> {
+        if !self.of.is_empty() {
+            self.names.insert(Arc::clone(node));
+        }
+        let is = |claim: &&Claim| {
+            claim.node == **node && claim.model.as_deref().is_none_or(|asked| Some(asked) == model)
+        };
+        self.of.iter().find(is).map(|claim| claim.water)
+    }
 }
 
 /// Adds what one `[[model]]` table describes.
@@ -35,6 +82,7 @@ pub(crate) fn add(
     spot: &Spot<'_>,
     table: &ModelTable,
     names: &Names,
+    claims: &mut Claims,
 ) -> Result<(), Error> {
     spot.exactly_one(&[
         ("file", table.file.is_some()),
@@ -52,7 +100,7 @@ pub(crate) fn add(
         }
         let path = spot.file(name);
         let shelved = library.shelve(draft, spot, &path, &table.materials)?;
-        return place(draft, shelved, &placement);
+        return place(draft, shelved, &placement, (table.name.as_deref(), claims));
     }
     if !table.materials.is_empty() {
         let what = "is for model files; inline geometry has the key material, the name of a [[material]]";
@@ -72,7 +120,7 @@ pub(crate) fn add(
 /// Adds a whole model file as it is.
 pub(crate) fn add_file(draft: &mut Draft, path: &Path) -> Result<(), Error> {
     let shelved = shelve(draft, gltf::read(path)?, path);
-    place(draft, &shelved, &DAffine3::IDENTITY)
+    place(draft, &shelved, &DAffine3::IDENTITY, (None, &mut Claims::default()))
 }
 
 /// Index of the material that the key `material` of this table names.
@@ -157,17 +205,30 @@ fn shelve(draft: &mut Draft, model: gltf::Model, path: &Path) -> Shelved {
     draft.warnings.extend(model.warnings);
     let instances =
         model.instances.into_iter().map(|i| Instance { mesh: i.mesh + first_mesh, ..i }).collect();
-    Shelved { instances, cameras: model.cameras, lights: model.lights, path: path.to_path_buf() }
+    let (nodes, path) = (model.instance_names, path.to_path_buf());
+    Shelved { instances, nodes, cameras: model.cameras, lights: model.lights, path }
 }
 
 /// Places everything of a model.
-fn place(draft: &mut Draft, shelved: &Shelved, placement: &DAffine3) -> Result<(), Error> {
+fn place(
+    draft: &mut Draft,
+    shelved: &Shelved,
+    placement: &DAffine3,
+    (name, claims): (Option<&str>, &mut Claims),
+) -> Result<(), Error> {
     if draft.geometry.instances.len() + shelved.instances.len() > MOST_INSTANCES {
         let what = format!("with this model the scene has more than {MOST_INSTANCES} placed meshes");
         return Err(Error::File { path: shelved.path.clone(), place: String::new(), what });
     }
-    for instance in &shelved.instances {
-        draft.add_instance(instance.mesh, *placement * instance.world_from_mesh);
+    for (instance, node) in shelved.instances.iter().zip(&shelved.nodes) {
+        let world_from_mesh = *placement * instance.world_from_mesh;
+        match claims.claim(name, node) {
+            Some(water) => {
+                let mesh = draft.geometry.meshes[instance.mesh as usize].clone();
+                claims.found.push(Found { water, mesh, world_from_mesh });
+            }
+            None => draft.add_instance(instance.mesh, world_from_mesh),
+        }
     }
     for camera in &shelved.cameras {
         draft.cameras.extend(punctual::camera(camera, placement, draft.cameras.len() + 1));
