@@ -290,6 +290,42 @@ pub const KNOBS: &[Knob] = &[
         doc: "TODO",
     },
     Knob {
+        name: "interreflection",
+        domain: Domain::Choice(&["off", "patches"]),
+        presets: ["off"; 3],
+        doc: "whether surfaces light each other, diffusely and from face to face; off leaves it out",
+    },
+    Knob {
+        name: "interreflection.patches",
+        domain: Domain::Integer(16, 1_000_000),
+        presets: ["2000", "8000", "40000"],
+        doc: "no more patches than this, as far as the faces themselves are not more (two for each, less those that no light reaches)",
+    },
+    Knob {
+        name: "interreflection.patch",
+        domain: Domain::OwnOr(0.001, 1e6),
+        presets: ["own"; 3],
+        doc: "longest edge of a patch [m]; own = as fine as interreflection.patches allow",
+    },
+    Knob {
+        name: "interreflection.share",
+        domain: Domain::Number(0.0001, 1.0),
+        presets: ["0.1", "0.05", "0.02"],
+        doc: "what fills no more than this share of a patch's hemisphere is seen as one",
+    },
+    Knob {
+        name: "interreflection.rays",
+        domain: Domain::Integer(1, 1024),
+        presets: ["2", "4", "16"],
+        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree",
+    },
+    Knob {
+        name: "interreflection.orders",
+        domain: Domain::Integer(0, 1000),
+        presets: ["3", "0", "0"],
+        doc: "diffuse reflections followed (thesis: 3); 0 = until 1e-5 of the light is left",
+    },
+    Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],

@@ -23,7 +23,7 @@ pub struct Scene {
     pub waters: Vec<Water>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
-    /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky` or `emission`.
+    /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky`, `interreflected` or `emission`.
     pub lights: Vec<Light>,
     /// Lamps that have an extent.
     pub area_lights: Vec<AreaLight>,

@@ -30,6 +30,11 @@ impl Waters {
         Ok((!waters.is_empty()).then_some(Self { waters, rules: rules(settings) }))
     }
 
+    /// All of them.
+    pub(super) fn flat(&self) -> &Arc<[FlatWater]> {
+        &self.waters
+    }
+
     /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
     /// no light.
     pub(super) fn seen(scene: &Scene, first: u32) -> Arc<Geometry> {
