@@ -65,14 +65,13 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     }
     let plan = Plan::new(&scene, &args.view)?.at_sensors();
     caution(&plan);
-    let pipeline = assemble::assemble(&plan, &scene)?;
-    let table = lux::table(&scene, &pipeline);
-    for u in &table.uniformity {
-        eprintln!(
-            "{}: min {:.3} lx, mean {:.3} lx, max {:.3} lx, uniformity {:.3}",
-            u.sensor, u.minimum, u.mean, u.maximum, u.uniformity
-        );
+    let measuring = assemble::Measuring::new(&plan, &scene)?;
+    let table = lux::measure(&scene, &measuring);
+    let buried = lux::buried(&scene, &*measuring.pipeline.nearest, &table);
+    for warning in measuring.warnings.iter().chain(&buried) {
+        eprintln!("warning: {warning}");
     }
+    table.uniformity.iter().for_each(|sensor| eprintln!("{sensor}"));
     say(&if json { pretty(&table) } else { table.to_string() })
 }
 

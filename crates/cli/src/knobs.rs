@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::Error;
+use crate::lux::REPEATS;
 
 /// A named quality: `--preset`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
@@ -393,11 +394,12 @@ impl Settings {
         }
     }
 
-    /// The same for `keikan lux`: sensors are few, and stand where little of the sky is seen.
+    /// The same for `keikan lux`: sensors are few, and stand where little of the sky is seen. They are asked several times,
+    /// each with its share of the rays.
     pub fn at_sensors(mut self) -> Self {
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
-            self.0.insert("sky.rays", rays.to_string());
+            self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
             self.0.insert("sky.visibility", "rays".to_owned());
         }
         self
@@ -468,9 +470,9 @@ mod tests {
     fn sensors_ask_more_of_the_sky_unless_told_how() {
         let mut settings = Settings::preset(Preset::Normal);
         let at_sensors = settings.clone().at_sensors();
-        assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 4096));
+        assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 1024));
         settings.set("sky.rays", "9999", "--set").unwrap();
-        assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 9999);
+        assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 2500);
         settings.set("sky.visibility", "cuboid", "--set").unwrap();
         assert_eq!(settings.clone().at_sensors(), settings);
     }

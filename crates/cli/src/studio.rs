@@ -99,9 +99,10 @@ impl Studio {
         monitor: &Monitor,
         seconds: &mut Timings,
     ) -> Result<Shot, Error> {
-        let (scene, plan) = self.set_up(spec)?;
+        let (scene, mut plan) = self.set_up(spec)?;
         fits(&plan, &scene, self.layers)?;
         let pipeline = self.pipeline(spec, &plan, &scene, seconds)?;
+        plan.warnings.extend(self.standing.iter().flat_map(|standing| standing.warnings(&scene)));
         monitor.rendering.store(true, Ordering::Relaxed);
         monitor.rows.store(0, Ordering::Relaxed);
         let film = seconds.time("render", || {

@@ -1,10 +1,12 @@
 //! Plan and scene → pipeline: the only place that names chapters.
 
+mod banks;
 mod heavens;
 mod interreflection;
 mod lights;
 mod maps;
 mod materials;
+mod measuring;
 mod open_sky;
 mod qualities;
 mod solids;
@@ -31,6 +33,7 @@ pub(crate) use heavens::{lacks, place_of_sun};
 pub(crate) use lights::outline;
 pub use maps::Maps;
 pub(crate) use materials::mirrors;
+pub use measuring::{Column, Measuring, Way};
 pub(crate) use open_sky::OpenSky;
 pub(crate) use qualities::{Optics, waters as water_names};
 
@@ -78,6 +81,12 @@ impl Standing {
         Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new() })
     }
 
+    /// What only building can find to be unusual, in words.
+    pub fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let flat = self.waters.as_ref().map(|waters| &**waters.flat());
+        banks::warnings(scene, flat.unwrap_or_default(), self.traced.first())
+    }
+
     /// The scene's primary sources; `maps` have what is known of the sky's light, and keep what becomes known.
     pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Vec<Source> {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
@@ -85,6 +94,18 @@ impl Standing {
         match &self.waters {
             Some(waters) => sources.map(|source| waters.lit(scene, &plan.settings, source)).collect(),
             None => sources.collect(),
+        }
+    }
+
+    /// The same by the ways that light takes past water.
+    fn light_by_ways(&self, plan: &Plan, scene: &Scene) -> Vec<(Source, Way)> {
+        let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
+        let sources = lights::sources(scene, &plan.settings, bodies, &mut Maps::default()).into_iter();
+        match &self.waters {
+            Some(waters) => {
+                sources.flat_map(|source| waters.by_ways(scene, &plan.settings, source)).collect()
+            }
+            None => sources.map(|source| (source, Way::Direct)).collect(),
         }
     }
 

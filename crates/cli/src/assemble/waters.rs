@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use light::{Geometry, Instance, PointSource, Shade, Traverse};
+use light::{Geometry, Illuminate, Instance, PointSource, Shade, Traverse};
 use scene::Scene;
-use water::flat::{Along, Fill, FlatWater, Lit, Rules, Scattered, Source as Kind, SurfaceShade};
+use water::flat::{Along, Fill, FlatWater, Lit, Part, Rules, Scattered, Source as Kind, SurfaceShade};
 use water::scatter::LAMP_TOLERANCE;
 use water::{Paths, Tolerance};
 
 use super::heavens::SKY;
 use super::lights::{SUN, area};
+use super::measuring::Way;
 use super::qualities::of_scene as quality;
 use crate::Error;
 use crate::knobs::Settings;
@@ -60,21 +61,41 @@ impl Waters {
 
     /// A source as it arrives above and below; its shadows are no straight lines any more.
     pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
-        let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
-        let point = source.point.map(|point| match point {
-            PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
-            PointSource::At(position) => Kind::At(position),
-        });
-        let sky = (source.name == SKY).then_some(Kind::Around);
-        let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);
-        let lamp = || lamp.map(|lamp| Kind::Area(area(lamp, settings)));
-        let Some(kind) = sun.or(point).or(sky).or_else(lamp) else { return source };
+        let Some(kind) = kind(scene, settings, &source) else { return source };
         Source {
             light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.rules)),
             point: None,
             ..source
         }
     }
+
+    /// The same by the ways that its light takes, which together are all of it.
+    pub(super) fn by_ways(&self, scene: &Scene, settings: &Settings, source: Source) -> Vec<(Source, Way)> {
+        let Some(kind) = kind(scene, settings, &source) else { return vec![(source, Way::Direct)] };
+        let inner: Arc<dyn Illuminate> = Arc::from(source.light);
+        let along = |(way, part): (Way, Part)| {
+            let inner = Box::new(Arc::clone(&inner));
+            let light = Lit::new(inner, kind.clone(), Arc::clone(&self.waters), self.rules).only(part);
+            let name = source.name.clone();
+            (Source { name, light: Box::new(light), beam: source.beam, point: None }, way)
+        };
+        let ways =
+            [(Way::Direct, Part::Direct), (Way::Reflected, Part::Reflected), (Way::Through, Part::Through)];
+        ways.into_iter().map(along).collect()
+    }
+}
+
+/// How its light finds its way through a surface; none of a source that is none of the scene's.
+fn kind(scene: &Scene, settings: &Settings, source: &Source) -> Option<Kind> {
+    let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
+    let point = source.point.map(|point| match point {
+        PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
+        PointSource::At(position) => Kind::At(position),
+    });
+    let sky = (source.name == SKY).then_some(Kind::Around);
+    let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);
+    let lamp = || lamp.map(|lamp| Kind::Area(area(lamp, settings)));
+    sun.or(point).or(sky).or_else(lamp)
 }
 
 fn rules(settings: &Settings) -> Rules {

@@ -52,6 +52,11 @@ impl FlatWater {
         self.covers(DVec2::new(point.x, point.z)).then_some(self.surface.level - point.y)
     }
 
+    /// The edges of the surface, x and z in the world \[m\], in no order.
+    pub fn outline(&self) -> &[[DVec2; 2]] {
+        &self.outline
+    }
+
     /// A point of the surface's height in the middle of all of it.
     pub(super) fn middle(&self) -> DVec3 {
         let at = self.low.midpoint(self.high);
