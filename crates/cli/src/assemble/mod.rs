@@ -76,7 +76,7 @@ impl Standing {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
         let sources = lights::sources(scene, &plan.settings, bodies, maps).into_iter();
         match &self.waters {
-            Some(waters) => sources.map(|source| waters.lit(scene, &plan.settings, source)).collect(),
+            Some(waters) => waters.lit_all(scene, &plan.settings, sources),
             None => sources.collect(),
         }
     }

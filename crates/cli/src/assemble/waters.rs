@@ -52,17 +52,29 @@ impl Waters {
         Arc::new(Fill::new(Arc::clone(&self.waters)))
     }
 
-    /// A source as it arrives above and below; its shadows are no straight lines any more.
-    pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
+    /// Sources as they arrive above and below; their shadows are no straight lines any more. Lamps with an extent are last, in the
+    /// scene's order.
+    pub(super) fn lit_all(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        sources: impl ExactSizeIterator<Item = Source>,
+    ) -> Arc<[Source]> {
+        let points = sources.len() - scene.area_lights.len();
+        let lamp = |i: usize| i.checked_sub(points).and_then(|i| scene.area_lights.get(i));
+        let area = |i| lamp(i).map(|lamp| Kind::Area(area(lamp, settings)));
+        sources.enumerate().map(|(i, source)| self.lit(scene, source, area(i))).collect()
+    }
+
+    fn lit(&self, scene: &Scene, source: Source, area: Option<Kind>) -> Source {
         let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
-        let point = source.point.map(|point| match point {
-            PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
-            PointSource::At(position) => Kind::At(position),
+        let point = source.point.and_then(|point| match point {
+            PointSource::Toward(toward) => Some(Kind::Toward(toward)),
+            PointSource::At(position) => Some(Kind::At(position)),
+            PointSource::Below { .. } => None,
         });
         let sky = (source.name == SKY).then_some(Kind::Around);
-        let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);
-        let lamp = || lamp.map(|lamp| Kind::Area(area(lamp, settings)));
-        let Some(kind) = sun.or(point).or(sky).or_else(lamp) else { return source };
+        let Some(kind) = area.or(sun).or(point).or(sky) else { return source };
         Source {
             light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.rules)),
             point: None,
