@@ -268,7 +268,7 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "water.lamp-tolerance",
         domain: Domain::Number(1e-6, 1.0),
-        presets: ["0.1", "0.01", "0.0001"],
+        presets: ["1", "0.1", "0.001"],
         doc: "error of a lamp's scattered light as a share of it, for each of its ways through the water; time hardly depends on it down to 0.01",
     },
     Knob {
