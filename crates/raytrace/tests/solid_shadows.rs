@@ -95,7 +95,9 @@ fn shadow_intervals_agree_with_rays() {
                 let p = a + (b - a) * s;
                 let ray = match source {
                     PointSource::At(lamp) => Ray::between(p.as_vec3(), lamp.as_vec3()),
-                    PointSource::Toward(way) => Ray::new(p.as_vec3(), way.as_vec3()),
+                    PointSource::Toward(way) | PointSource::Below { toward: way, .. } => {
+                        Ray::new(p.as_vec3(), way.as_vec3())
+                    }
                 };
                 // Positions and directions round to f32: up to 6e-8 of 3 m at either end, and twice that across
                 // the shadow of something half way. Points this near to a stretch's end may be on either side.

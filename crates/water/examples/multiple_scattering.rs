@@ -1,6 +1,7 @@
 //! How much light comes back from deep water, by following photons, against scattering once.
 //!
-//! `cargo run --release -p keikan-water --example multiple_scattering -- [PHOTONS] [--all]`. Endless water without a bottom under a
+//! `cargo run --release -p keikan-water --example multiple_scattering -- [PHOTONS] [--all] [--bottom=DEPTH]`. Endless water without a bottom, or with a
+//! black one this many optical depths c z down, under a
 //! flat surface of n = 1.34, a sun that gives E₀ = 1 just under it, a black sky. Each line: share of molecules in b, ω0, zenith
 //! angle of the sun in air, of the view under water (its azimuth across the sun's, then away from it), radiance upwards just
 //! under the surface, its standard error, the same by quasi-single scattering, and both ratios to the truth, without and with the factor of
@@ -60,10 +61,18 @@ impl Turns {
 }
 
 /// Mean and standard error of the radiance upwards along each of `views` (unit vectors that light takes), E₀ = 1.
-fn upward(phase: &Phase, albedo: f64, sun: DVec3, views: &[DVec3], photons: u32, seed: u64) -> Vec<[f64; 2]> {
+fn upward(
+    phase: &Phase,
+    (albedo, bottom): (f64, f64),
+    sun: DVec3,
+    views: &[DVec3],
+    photons: u32,
+    seed: u64,
+) -> Vec<[f64; 2]> {
     let turns = Turns::new(phase);
     // Lengths are those between turns of more than `STRAIGHT_ON`: c' = c (1 − ω0 f).
     let kept = 1.0 - albedo * (1.0 - turns.share);
+    let bottom = bottom * kept;
     let albedo = albedo * turns.share / kept;
     let mut random = Random(seed);
     let mut sums = vec![[0.0; 2]; views.len()];
@@ -76,6 +85,9 @@ fn upward(phase: &Phase, albedo: f64, sun: DVec3, views: &[DVec3], photons: u32,
                 weight *= light::fresnel(1.0 / INDEX, way.y);
                 // What is mirrored goes on as far as it would have.
                 (depth, way.y) = (-depth, -way.y);
+            }
+            if depth > bottom {
+                break;
             }
             weight *= albedo;
             for (sum, view) in own.iter_mut().zip(views) {
@@ -103,6 +115,8 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let photons = arguments.first().and_then(|a| a.parse().ok()).unwrap_or(20_000);
     let all = arguments.iter().any(|a| a == "--all");
+    let bottom =
+        arguments.iter().find_map(|a| a.strip_prefix("--bottom=")?.parse().ok()).unwrap_or(f64::INFINITY);
     let degrees = |zenith: f64, azimuth: f64| {
         let ((sin, cos), (z, x)) = (zenith.to_radians().sin_cos(), azimuth.to_radians().sin_cos());
         DVec3::new(sin * x, cos, sin * z)
@@ -119,12 +133,14 @@ fn main() {
                 let sine = zenith.to_radians().sin() / INDEX;
                 let sun = degrees(sine.asin().to_degrees(), 0.0);
                 let toward: Vec<DVec3> = views.iter().map(|v| degrees(v.0, v.1)).collect();
-                let truth = upward(&phase, albedo, sun, &toward, photons, 1);
+                let truth = upward(&phase, (albedo, bottom), sun, &toward, photons, 1);
                 for ((view, ways), [mean, error]) in views.iter().zip(&toward).zip(truth) {
                     let diffuse = 1.0 - albedo * (1.0 - phase.backscattered());
                     let sideways = phase.value(-sun.dot(*ways));
-                    let once = albedo * sideways / ((sun.y + ways.y) * diffuse);
-                    let factor = multiple::factor(albedo, phase.backscattered(), sideways);
+                    let reached = 1.0 - (-diffuse * bottom * (1.0 / sun.y + 1.0 / ways.y)).exp();
+                    let once = albedo * sideways / ((sun.y + ways.y) * diffuse) * reached;
+                    let deep = multiple::factor(albedo, phase.backscattered(), sideways);
+                    let factor = 1.0 + (deep - 1.0) * multiple::room(1.0, bottom);
                     println!(
                         "{share:4} {albedo:5} {zenith:4} {:4} {:4} {mean:.5e} {error:.1e} {once:.5e} {:.3} {:.3}",
                         view.0,

@@ -88,9 +88,10 @@ impl Waters {
 /// How its light finds its way through a surface; none of a source that is none of the scene's.
 fn kind(scene: &Scene, settings: &Settings, source: &Source) -> Option<Kind> {
     let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
-    let point = source.point.map(|point| match point {
-        PointSource::Toward(toward) | PointSource::Below { toward, .. } => Kind::Toward(toward),
-        PointSource::At(position) => Kind::At(position),
+    let point = source.point.and_then(|point| match point {
+        PointSource::Toward(toward) => Some(Kind::Toward(toward)),
+        PointSource::At(position) => Some(Kind::At(position)),
+        PointSource::Below { .. } => None,
     });
     let sky = (source.name == SKY).then_some(Kind::Around);
     let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);

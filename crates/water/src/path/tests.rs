@@ -138,19 +138,16 @@ fn by_neighbours(source: DVec3, leg: &Leg, receiver: DVec3) -> f64 {
 
 #[test]
 fn the_share_is_fresnels() {
-    // α at 45° and 80° in air, n = 1.333 and 1.34, and at 30° and 45° under water, n = 1.34: six decimals.
-    for (n, down, degrees, alpha) in [
-        (1.333, true, 45.0f64, 0.027898),
-        (1.34, true, 80.0, 0.350200),
-        (1.34, true, 0.0, 0.021112),
-        (1.34, false, 30.0, 0.026534),
-        (1.34, false, 45.0, 0.152861),
-    ] {
-        let cos = degrees.to_radians().cos();
-        let n: f64 = if down { n } else { 1.0 / n };
-        let other = (1.0 - (degrees.to_radians().sin() / n).powi(2)).sqrt();
-        assert!((1.0 - transmitted(n, cos, other) - alpha).abs() < 6e-7, "{n} {degrees}");
-        assert!((1.0 - transmitted(n, cos, other) - fresnel(n, cos)).abs() < 1e-14);
+    for [degrees, from_air_333, from_water_333, from_air, from_water] in table::FRESNEL {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        for (n, alpha) in
+            [(1.333, from_air_333), (1.0 / 1.333, from_water_333), (1.34, from_air), (1.0 / 1.34, from_water)]
+        {
+            let other = (1.0 - (sin / n) * (sin / n)).max(0.0).sqrt();
+            let passes = transmitted(n, cos, other);
+            assert!((1.0 - passes - alpha).abs() < 6e-7, "{n} {degrees}: {passes}");
+            assert!((1.0 - passes - fresnel(n, cos)).abs() < 1e-14);
+        }
     }
 }
 

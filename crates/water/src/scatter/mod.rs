@@ -63,8 +63,8 @@ impl Scattering {
         Self { water, surface, coefficient, evenly: Spectrum::ZERO }
     }
 
-    /// The same, with the light of sun and sky that is scattered more than once: in deep water, with [`Loss::Diffuse`], by
-    /// the factor of [`multiple`].
+    /// The same, with the light of sun and sky that is scattered more than once, with [`Loss::Diffuse`], by the factor of
+    /// [`multiple`]; view rays tell by where they end how deep the water is.
     pub fn often(mut self) -> Self {
         self.evenly = multiple::evenly(&self.water);
         self
@@ -85,9 +85,20 @@ impl Scattering {
         self.coefficient
     }
 
-    /// β(Θ) for light of sun or sky from unit vector `toward` seen along `direction`, and what [`multiple`] adds if that is wanted.
+    /// β(Θ) for light of sun or sky from unit vector `toward` seen along `direction`.
     fn scattered(&self, toward: DVec3, direction: DVec3) -> Spectrum {
-        self.water.volume_scattering(toward.dot(direction)) + self.evenly
+        self.water.volume_scattering(toward.dot(direction))
+    }
+
+    /// What [`multiple`] adds to that along a view ray, if it is wanted.
+    fn evenly(&self, ray: &ViewRay) -> Spectrum {
+        if self.evenly.is_zero() {
+            return self.evenly;
+        }
+        let reach = ray.direction.y.min(0.0) * ray.length;
+        let depth = (self.depth(ray.from) - if reach.is_nan() { 0.0 } else { reach }).max(0.0);
+        let room = |c: f32| multiple::room(f64::from(c), depth) as f32;
+        self.evenly * self.water.extinction().map(room)
     }
 
     fn depth(&self, point: DVec3) -> f64 {

@@ -10,9 +10,12 @@
 //! particles, low sun, view towards it), where L₁ alone misses by 37 % and up to three quarters. Angles of sun and view in N would improve that by
 //! less than half a percent.
 //!
-//! **Where it is wrong.** Just under the surface of deep water is where it holds. Deeper down the loss itself is off: K = a + b_b is too much
-//! for molecules (at ω0 = 0.9 and ten optical depths radiance is 0.15 of the truth), too little for particles (1.7 of it). Over a
-//! bottom nearer than 1/K the factor is too large.
+//! Light is scattered again only where there is room for it: over a bottom z deep N counts (1 − e^(−0.7 c z)) times ([`room`]). Over a
+//! black bottom (`--bottom` of the same example, ω0 = 0.9, sun at 60°, straight down, c z from 0.25 to 8) that meets the photons within
+//! 11 %, where L₁ alone is 0.5 to 0.93 of them and the factor of deep water up to 1.63 of them.
+//!
+//! **Where it is wrong.** Just under the surface is where it holds. Deeper down the loss itself is off: K = a + b_b is too much
+//! for molecules (at ω0 = 0.9 and ten optical depths radiance is 0.15 of the truth), too little for particles (1.7 of it).
 
 use std::f64::consts::TAU;
 
@@ -49,6 +52,26 @@ fn even(albedo: f64, backscattered: f64) -> f64 {
     let [first, second, third] = FITTED.map(|[n0, n1, n2]| n0 + n1 * share.sqrt() + n2 * share);
     let n = q * (first + q * (second + q * third));
     n.max(0.0) * backscattered.max(0.0) / TAU
+}
+
+/// How often light is scattered per optical depth of water, as far as more than once is concerned: between what molecules need (1.3 at
+/// c z = 0.25 to 0.8 at 4) and particles (0.4 to 0.8).
+const AGAIN: f64 = 0.7;
+
+/// The share of N that light scattered more than once has over a bottom `depth` \[m\] below the surface, of water of `extinction` c \[1/m\].
+///
+/// ```
+/// use keikan_water::{Phase, multiple};
+/// let (p, c_z) = (Phase::petzold(), 1.0);
+/// let nadir = p.value(-0.7631); // sun at 60° in air
+/// let factor = 1.0 + (multiple::factor(0.9, p.backscattered(), nadir) - 1.0) * multiple::room(1.0, c_z);
+/// // Photons over a black bottom: 0.80 of the light is scattered once.
+/// assert!((factor * 0.798 - 1.0).abs() < 0.11);
+/// ```
+pub fn room(extinction: f64, depth: f64) -> f64 {
+    let scattered = AGAIN * extinction * depth;
+    // Endless depth of what loses nothing gives no number.
+    if scattered > 0.0 { -(-scattered).exp_m1() } else { 0.0 }
 }
 
 /// What is added to β(Θ) per band \[1/(m sr)\].

@@ -17,6 +17,8 @@ pub struct ScatteredSky {
     scattering: Scattering,
     rays: Rays,
     table: Table,
+    /// Scalar irradiance, of which what is scattered more than once is a share; where it is wanted.
+    scalar: Option<Table>,
 }
 
 impl ScatteredSky {
@@ -26,7 +28,9 @@ impl ScatteredSky {
         let table = Table::new(&rays, scattering.coefficient(), |direction, toward| {
             scattering.scattered(toward.as_dvec3(), direction.as_dvec3())
         });
-        Self { scattering, rays, table }
+        let often = !scattering.evenly.is_zero();
+        let scalar = often.then(|| Table::new(&rays, scattering.coefficient(), |_, _| Spectrum::ONE));
+        Self { scattering, rays, table, scalar }
     }
 
     /// The water that scatters it.
@@ -34,15 +38,24 @@ impl ScatteredSky {
         &self.scattering
     }
 
-    /// Radiance per metre scattered towards the eye at `depth` \[m\] of a view ray with unit vector `direction` \[W m⁻³ sr⁻¹ nm⁻¹\].
+    /// Radiance per metre scattered towards the eye at `depth` \[m\] of a view ray with unit vector `direction` \[W m⁻³ sr⁻¹ nm⁻¹\],
+    /// in deep water.
     pub fn source(&self, depth: f64, direction: Vec3) -> Spectrum {
-        self.table.value(depth, direction)
+        let common = self.scattering.coefficient().attenuate(depth.max(0.0) as f32);
+        self.without_common_loss(depth.max(0.0), direction, self.scattering.evenly) * common
+    }
+
+    fn without_common_loss(&self, depth: f64, direction: Vec3, evenly: Spectrum) -> Spectrum {
+        let once = self.table.without_common_loss(depth, direction);
+        self.scalar.as_ref().map_or(once, |scalar| once + evenly * scalar.without_common_loss(depth, Vec3::Y))
     }
 
     /// The same by summing up all rays: the slow reference.
     pub fn source_by_rays(&self, depth: f64, direction: Vec3) -> Spectrum {
         let (depth, coefficient) = (depth.max(0.0), self.scattering.coefficient());
-        let kernel = |toward: Vec3| self.scattering.scattered(toward.as_dvec3(), direction.as_dvec3());
+        let kernel = |toward: Vec3| {
+            self.scattering.scattered(toward.as_dvec3(), direction.as_dvec3()) + self.scattering.evenly
+        };
         self.rays.sum(depth, coefficient, kernel) * coefficient.attenuate(depth as f32)
     }
 
@@ -53,9 +66,10 @@ impl ScatteredSky {
         let (down, direction) = (-ray.direction.y, ray.direction.as_vec3());
         let coefficient = self.scattering.coefficient();
         let mut sum = Spectrum::ZERO;
-        let mut before = (0.0, self.table.without_common_loss(first, direction));
+        let evenly = self.scattering.evenly(ray);
+        let mut before = (0.0, self.without_common_loss(first, direction, evenly));
         for end in self.ends(first, down, ray.length) {
-            let after = (end, self.table.without_common_loss(first + end * down, direction));
+            let after = (end, self.without_common_loss(first + end * down, direction, evenly));
             let piece = |b: usize| {
                 let k = f64::from(coefficient[b]);
                 let lost = (-k * (first + before.0 * (1.0 + down))).exp();

@@ -106,7 +106,8 @@ impl Scattering {
                 *sum += f64::from(pair) * 0.5 * (next - walked);
             }
             let leaving = (ray.at(start + sign * next) - at).dot(ray.direction) * sign >= 0.0;
-            let faint = f64::from(there.luminance()) <= steps.negligible;
+            // A shadow may end again.
+            let faint = !there.is_zero() && f64::from(there.luminance()) <= steps.negligible;
             if faint && (leaving || way == Way::Refracted) {
                 break;
             }

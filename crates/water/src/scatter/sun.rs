@@ -37,7 +37,8 @@ impl Scattering {
             lit.iter().map(piece).sum()
         };
         let along = Spectrum(self.coefficient.0.map(|k| reached(f64::from(k)) as f32));
-        sun.horizontal * along * self.scattered(sun.toward, ray.direction) * sec as f32
+        let scattered = self.scattered(sun.toward, ray.direction) + self.evenly(ray);
+        sun.horizontal * along * scattered * sec as f32
     }
 }
 

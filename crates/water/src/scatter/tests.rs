@@ -249,6 +249,51 @@ fn fine_steps_of_the_thesis_find_the_same() {
 }
 
 #[test]
+fn quadrature_asks_fewer_points_than_the_thesis_steps() {
+    // The cases of the example `scatter_cost` with a shadow over a fourth of the ray.
+    let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::new(0.6, -0.8, 0.0), length: 8.0 };
+    let shadow = [2.3, 4.3];
+    let light = |_: &Leg, point: DVec3| {
+        let r = point.dot(ray.direction);
+        if r > shadow[0] && r < shadow[1] { Spectrum::ZERO } else { Spectrum::ONE }
+    };
+    let luminance = |radiance: [f64; 8]| f64::from(Spectrum(radiance.map(|band| band as f32)).luminance());
+    for (place, lamps) in [
+        ("under water", [0.05, 0.2, 1.0, 3.0].map(|away| DVec3::new(2.4, -3.2, away))),
+        ("in air", [0.0, 1.0, 3.0, 6.0].map(|away| DVec3::new(2.0, 2.0, away))),
+    ] {
+        let (mut points, mut worst) = ([0; 2], [0.0f64; 2]);
+        for name in ["pool", "jerlov-7C"] {
+            let scattering = Scattering::new(Water::named(name).unwrap(), 0.0, Loss::Diffuse);
+            for lamp in lamps {
+                let truth = luminance(scattering.lamp(lamp, &light, &ray, &shadow, FINE).value);
+                let reference = truth / ray.length;
+                let steps = Steps { longest: 0.1, shortest: 0.005, reference, negligible: 1e-3 * reference };
+                let walked = scattering.lamp_by_steps(lamp, DVec3::NEG_Y, &light, &ray, &steps);
+                let found = scattering.lamp(lamp, &light, &ray, &shadow, LAMP_TOLERANCE);
+                for (i, (radiance, count)) in
+                    [(walked.radiance, walked.evaluations), (found.value, found.evaluations)]
+                        .into_iter()
+                        .enumerate()
+                {
+                    worst[i] = worst[i].max((luminance(radiance) / truth - 1.0).abs());
+                    points[i] += count;
+                }
+            }
+        }
+        println!(
+            "lamp {place}: steps {} points, error {:.4}; quadrature {}, {:.5}",
+            points[0] / 8,
+            worst[0],
+            points[1] / 8,
+            worst[1]
+        );
+        // As the example prints: fewer points, and an error less by two orders.
+        assert!(points[1] < points[0] && worst[1] < 1e-4 && worst[0] > 5e-3, "{points:?} {worst:?}");
+    }
+}
+
+#[test]
 fn lamps_on_the_ray_and_dark_lamps_do_no_harm() {
     let scattering = Scattering::new(Water::named("pool").unwrap(), 0.0, Loss::Diffuse);
     let ray = down(3.0);
