@@ -49,6 +49,7 @@ pub mod phase;
 mod quadrature;
 pub mod quality;
 pub mod scatter;
+pub mod waves;
 
 pub use daylight::{SkyBelow, SunBelow, mirrored_sun};
 pub use path::{Leg, Paths, Surface, Way};
