@@ -42,6 +42,7 @@
 //! assert!(scattering.sun(&sun, &ray, &[[0.0, 2.0]]).max() > 0.0);
 //! ```
 
+pub mod caustics;
 pub mod daylight;
 pub mod flat;
 pub mod path;
