@@ -189,7 +189,10 @@ fn every_path_is_found() {
         });
         for (from, _) in &truth {
             // Paths through one leaf are told as one.
-            assert!(found.iter().any(|x| (x - from).abs() < 4.0 / 64.0), "{x}: {from} of {truth:?} {found:?}");
+            assert!(
+                found.iter().any(|x| (x - from).abs() < 4.0 / 64.0),
+                "{x}: {from} of {truth:?} {found:?}"
+            );
         }
         let expected: f64 = truth.iter().map(|(_, dense)| dense).sum();
         worst = worst.max((got / expected - 1.0).abs());

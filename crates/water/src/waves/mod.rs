@@ -4,6 +4,7 @@
 //! single wave is within 0.5 % of its height of the exact solution up to ka = 0.2, within 2 % up to 0.3.
 
 mod error;
+mod shade;
 mod stokes;
 #[cfg(test)]
 mod tests;
@@ -12,6 +13,7 @@ mod wind;
 use glam::{DVec2, DVec3};
 
 pub use error::WaveError;
+pub use shade::WavyShade;
 pub use stokes::{BREAKS_AT, Stokes};
 pub use wind::Wind;
 
