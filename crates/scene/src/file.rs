@@ -6,6 +6,7 @@ mod placed;
 mod seen;
 mod solids;
 mod values;
+mod waves;
 
 use std::collections::BTreeMap;
 
@@ -20,6 +21,7 @@ pub(crate) use seen::{
 };
 pub(crate) use solids::SolidTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
+pub(crate) use waves::{WaveTable, WindTable};
 
 /// A table whose keys belong to a later version.
 pub(crate) type ReservedTable = BTreeMap<String, serde_json::Value>;

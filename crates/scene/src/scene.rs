@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use light::{Distribution, Geometry, Mesh, Projection};
 
-use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Weather};
+use crate::{CameraPath, Daylight, Material, SkyTable, Solid, SurfaceWaves, Warning, Weather};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -73,6 +73,8 @@ pub struct Water {
     pub quality: String,
     /// Index of refraction relative to air; none = the water's own.
     pub index: Option<f64>,
+    /// What moves the surface, which is level on average.
+    pub waves: SurfaceWaves,
 }
 
 impl Water {

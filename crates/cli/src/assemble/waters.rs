@@ -2,9 +2,12 @@
 
 use std::sync::Arc;
 
-use light::{Geometry, Instance, PointSource, Shade, Spectrum, Traverse};
+use glam::DVec2;
+use light::{Geometry, Illuminate, Instance, PointSource, Shade, Spectrum, Traverse};
 use scene::Scene;
+use water::caustics::{Beams, Setting};
 use water::flat::{Fill, FlatWater, Lit, Source as Kind, SurfaceShade};
+use water::waves::{Stokes, WaveError, Waves, WavyShade, Wind};
 use water::{Paths, Water};
 
 use super::heavens::SKY;
@@ -16,12 +19,16 @@ use crate::pipeline::Source;
 /// All waters of a scene; none without any.
 pub(super) struct Waters {
     waters: Arc<[FlatWater]>,
+    /// On each of them.
+    waves: Vec<Arc<Waves>>,
     paths: Paths,
+    /// How finely waves gather light; none = they do not.
+    beams: Option<Setting>,
 }
 
 impl Waters {
     /// # Errors
-    /// A water that there is not, with those that there are.
+    /// A water that there is not, with those that there are; waves that cannot be.
     pub(super) fn of(scene: &Scene, settings: &Settings) -> Result<Option<Self>, Error> {
         let flat = |water: &scene::Water| Ok(FlatWater::new(quality(water)?, &water.surface, &water.place));
         let paths = match settings.choice("water.paths") {
@@ -29,7 +36,14 @@ impl Waters {
             _ => Paths::Exact,
         };
         let waters = scene.waters.iter().map(flat).collect::<Result<Arc<[_]>, Error>>()?;
-        Ok((!waters.is_empty()).then_some(Self { waters, paths }))
+        let waves = scene.waters.iter().map(|water| Ok(Arc::new(waves(water, scene)?)));
+        let waves = waves.collect::<Result<_, Error>>()?;
+        let beams = (settings.choice("water.caustics") == "beams").then(|| Setting {
+            cells: settings.number("water.caustics.cells"),
+            width: settings.number("water.caustics.width"),
+            disc: 0.0,
+        });
+        Ok((!waters.is_empty()).then_some(Self { waters, waves, paths, beams }))
     }
 
     /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
@@ -47,8 +61,12 @@ impl Waters {
 
     /// A shader for each surface.
     pub(super) fn shaders(&self) -> impl Iterator<Item = Box<dyn Shade>> {
-        (0..self.waters.len())
-            .map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)) })
+        self.waves.iter().enumerate().map(|(i, waves)| -> Box<dyn Shade> {
+            match waves.is_calm() {
+                true => Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)),
+                false => Box::new(WavyShade::new(self.waters[i].surface, Arc::clone(waves))),
+            }
+        })
     }
 
     pub(super) fn fill(&self) -> Arc<dyn Traverse> {
@@ -65,11 +83,19 @@ impl Waters {
         });
         let sky = (source.name == SKY).then_some(Kind::Around);
         let Some(kind) = sun.or(point).or(sky) else { return source };
-        Source {
-            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.paths)),
-            point: None,
-            ..source
-        }
+        let waters = Arc::clone(&self.waters);
+        let beams =
+            self.beams.filter(|_| kind != Kind::Around && self.waves.iter().any(|waves| !waves.is_calm()));
+        let light: Box<dyn Illuminate> = match beams {
+            Some(setting) => {
+                let sun = scene.sun.as_ref().filter(|_| source.name == SUN);
+                let disc = sun.map_or(0.0, |sun| 0.5 * sun.diameter.to_radians());
+                let how = (self.paths, Setting { disc, ..setting });
+                Box::new(Beams::new(source.light.into(), kind, waters, &self.waves, how))
+            }
+            None => Box::new(Lit::new(source.light, kind, waters, self.paths)),
+        };
+        Source { light, point: None, ..source }
     }
 }
 
@@ -88,4 +114,24 @@ fn quality(asked: &scene::Water) -> Result<Water, Error> {
     let named = named.map_err(|error| fault(&error))?;
     let Some(index) = asked.index else { return Ok(named) };
     Water::new(named.absorption(), named.scatterers().to_vec(), index).map_err(|error| fault(&error))
+}
+
+/// The waves of a water, at its moment.
+fn waves(water: &scene::Water, scene: &Scene) -> Result<Waves, Error> {
+    let fault = |what: String, error: WaveError| {
+        Error::Content(format!("[[water]] {:?}, {what}: {error}", water.name))
+    };
+    let given = water.waves.each.iter().enumerate().map(|(i, wave)| {
+        Stokes::new(wave.amplitude, wave.wavelength, wave.toward, wave.phase)
+            .map_err(|error| fault(format!("waves, number {}", i + 1), error))
+    });
+    let mut all = given.collect::<Result<Vec<_>, Error>>()?;
+    if let Some(wind) = &water.waves.wind {
+        let scene::Wind { speed, fetch, toward, depth, waves, seed } = *wind;
+        let wind = Wind { speed, fetch, toward, depth, waves: waves as usize };
+        all.extend(wind.raise(seed).map_err(|error| fault("wind".to_owned(), error))?);
+    }
+    // Phases count from where the file's coordinates do.
+    let origin = DVec2::new(-scene.origin.x, -scene.origin.z);
+    Ok(Waves::new(all, origin).at_moment(water.waves.moment))
 }

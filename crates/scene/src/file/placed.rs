@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Colour, OneOrThree};
+use super::{Colour, OneOrThree, WaveTable, WindTable};
 
 /// What a surface is made of. In `[model.materials.NAME]`, keys that are left out keep what the file says.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
@@ -203,4 +203,10 @@ pub(crate) struct WaterTable {
     /// Index of refraction relative to air. Default: the water's own.
     #[schemars(range(min = 1.0, max = 2.0))]
     pub(crate) index: Option<f64>,
+    /// Waves on its surface, up to 1024. Default none: it is flat.
+    pub(crate) waves: Option<Vec<WaveTable>>,
+    /// A wind that raises more of them.
+    pub(crate) wind: Option<WindTable>,
+    /// When the waves are looked at [s]. Default 0.
+    pub(crate) moment: Option<f64>,
 }

@@ -2,10 +2,10 @@
 
 use glam::DAffine3;
 
-use super::inline;
+use super::{inline, waves};
 use crate::document::Spot;
 use crate::file::WaterTable;
-use crate::{Error, Water};
+use crate::{Error, Site, Water};
 
 /// How far corners may lie off the level of the first \[m\]: what one writes with millimetres.
 const UNEVEN: f64 = 1e-3;
@@ -14,7 +14,7 @@ const UNEVEN: f64 = 1e-3;
 const QUALITY: &str = "pool";
 
 /// The water of a table.
-pub(crate) fn water(spot: &Spot<'_>, number: usize, table: &WaterTable) -> Result<Water, Error> {
+pub(crate) fn water(spot: &Spot<'_>, number: usize, table: &WaterTable, site: &Site) -> Result<Water, Error> {
     let points = spot.key("polygon").key("points");
     let level = table.polygon.points.first().map_or(0.0, |[_, y, _]| *y);
     let corners = table.polygon.points.iter().chain(table.polygon.holes.iter().flatten());
@@ -36,8 +36,10 @@ pub(crate) fn water(spot: &Spot<'_>, number: usize, table: &WaterTable) -> Resul
         }
     }
     let middle = flat.middle;
+    let name = table.name.clone().unwrap_or_else(|| format!("water-{number}"));
     Ok(Water {
-        name: table.name.clone().unwrap_or_else(|| format!("water-{number}")),
+        waves: waves::waves(spot, table, site, &name)?,
+        name,
         surface: flat.mesh,
         place: DAffine3::from_translation(middle.with_y(level)),
         quality: table.quality.clone().unwrap_or_else(|| QUALITY.to_owned()),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use super::{Beam, BeamMap};
@@ -21,88 +21,102 @@ pub struct Setting {
     pub disc: f64,
 }
 
-/// The sun, or a lamp in air, with wavy water around: below it by beams, elsewhere as by flat water ([`Lit`]).
+/// The sun, or a lamp in air, with wavy water around: through and off the waves by beams; elsewhere as by flat water ([`Lit`]).
 ///
-/// *Below* is deeper than the deepest trough can be, and by waves' height more: in between light takes the flat path. Shadows are
-/// asked for on both legs once for each leaf of beams, at the surface point that its light comes from on average.
+/// Within twice the waves' height of the level of rest light takes the flat paths. Shadows are asked for on both legs once for each
+/// leaf of beams, at the surface point that its light comes from on average.
 pub struct Beams {
     inner: Arc<dyn Illuminate>,
+    /// With all waters as if at rest.
     flat: Lit,
-    waters: Arc<[FlatWater]>,
-    maps: Vec<Option<Map>>,
+    /// With those alone that are.
+    calm: Lit,
+    /// Those that are not.
+    wavy: Vec<Wavy>,
     width: f64,
 }
 
-/// Of one water.
-struct Map {
-    beams: BeamMap,
-    /// From where on beams are asked \[m\].
-    depth: f64,
+/// A water with waves, and its beams.
+struct Wavy {
+    water: FlatWater,
+    through: BeamMap,
+    mirrored: BeamMap,
+    /// How far from the level beams begin \[m\].
+    near: f64,
 }
 
 impl Beams {
-    /// `inner`, which is a `source`, with these waters around, each with its waves. Waters at rest, and sources from all around or below a
-    /// water's level, are left to [`Lit`].
+    /// `inner`, which is a `source`, with these waters around, each with its waves. Waters at rest, and sources from all around or below
+    /// the crests, are left to [`Lit`].
     pub fn new(
         inner: Arc<dyn Illuminate>,
         source: Source,
         waters: Arc<[FlatWater]>,
-        waves: &[Waves],
+        waves: &[Arc<Waves>],
         (paths, setting): (Paths, Setting),
     ) -> Self {
-        let map = |(water, waves): (&FlatWater, &Waves)| {
-            let above = match source {
-                Source::Toward(toward) => toward.y > 0.0,
-                Source::At(lamp) => lamp.y > water.surface.level + waves.highest(),
-                Source::Around => false,
-            };
-            let shortest = waves.shortest().filter(|_| above)?;
-            let step = shortest / setting.cells;
-            let beams = BeamMap::new(water, waves, source, Way::Refracted, (step, setting.disc));
-            Some(Map { beams, depth: 2.0 * waves.highest() })
+        let shines = |water: &FlatWater, waves: &Waves| match source {
+            Source::Toward(toward) => toward.y > 0.0,
+            Source::At(lamp) => lamp.y > water.surface.level + waves.highest(),
+            Source::Around => false,
         };
-        let maps = waters.iter().zip(waves).map(map).collect();
-        let flat = Lit::new(Box::new(Arc::clone(&inner)), source, Arc::clone(&waters), paths);
-        Self { inner, flat, waters, maps, width: setting.width }
+        let (mut wavy, mut calm) = (Vec::new(), Vec::new());
+        for (water, waves) in waters.iter().zip(waves) {
+            let Some(shortest) = waves.shortest().filter(|_| shines(water, waves)) else {
+                calm.push(water.clone());
+                continue;
+            };
+            let fine = (shortest / setting.cells, setting.disc);
+            let map = |way| BeamMap::new(water, waves, source, way, fine);
+            let (through, mirrored) = (map(Way::Refracted), map(Way::Mirrored));
+            wavy.push(Wavy { water: water.clone(), through, mirrored, near: 2.0 * waves.highest() });
+        }
+        let by = |waters| Lit::new(Box::new(Arc::clone(&inner)), source, waters, paths);
+        Self { flat: by(waters), calm: by(calm.into()), inner, wavy, width: setting.width }
     }
 
-    /// The water with beams that a point is in, and its map.
-    fn under(&self, point: DVec3) -> Option<(&FlatWater, &Map)> {
-        let maps = self.waters.iter().zip(&self.maps);
-        let mut with = maps.filter_map(|(water, map)| Some((water, map.as_ref()?)));
-        with.find(|(water, map)| water.depth(point).is_some_and(|depth| depth > map.depth))
+    /// By one water's beams, those that its waves let through or those that they mirror.
+    fn give(&self, beams: &BeamMap, at: &At<'_>, receive: &mut dyn FnMut(Arrival)) {
+        let position = at.place.position.as_dvec3();
+        beams.beams(position, beams.half_width(position, 0.5 * self.width), &mut |beam| {
+            // What comes from behind lights nothing, and needs no shadows; who is lit from all sides asks twice.
+            if beam.toward.as_vec3().dot(at.place.normal) > 0.0
+                && let Some(arrival) = self.arrival(&beam, at)
+            {
+                receive(arrival);
+            }
+        });
     }
 
     /// What one beam brings, past what is in its way.
-    fn arrival(
-        &self,
-        beam: &Beam,
-        water: &FlatWater,
-        place: &Place,
-        occlude: &dyn Occlude,
-    ) -> Option<Arrival> {
+    fn arrival(&self, beam: &Beam, at: &At<'_>) -> Option<Arrival> {
         let position = beam.from.as_vec3();
         let error = 4.0 * f32::EPSILON * position.abs().max_element() + f32::MIN_POSITIVE;
-        let surface = Place { position, error, normal: Vec3::Y, seed: place.seed };
-        let seen = occlude.transmittance(&place.toward(position));
+        let surface = Place { position, error, normal: Vec3::Y, seed: at.place.seed };
+        let seen = at.occlude.transmittance(&at.place.toward(position));
         if seen.is_zero() {
             return None;
         }
         let mut there = Spectrum::ZERO;
-        self.inner.arrivals(&surface, occlude, &mut |arrival| {
+        self.inner.arrivals(&surface, at.occlude, &mut |arrival| {
             if let Arrival::Beam { irradiance, .. } = arrival {
                 there += irradiance;
             }
         });
-        let length = beam.from.distance(place.position.as_dvec3());
-        let left = water.water.loss(Loss::Diffuse).attenuate(length as f32);
-        let irradiance = there * seen * left * (beam.level / beam.toward.y) as f32;
-        (!irradiance.is_zero()).then(|| Arrival::Beam {
-            toward: beam.toward.as_vec3(),
-            irradiance,
-            radius: None,
-        })
+        let length = beam.from.distance(at.place.position.as_dvec3());
+        let facing = beam.level / beam.toward.y.abs();
+        let irradiance = there * seen * at.loss.attenuate(length as f32) * facing as f32;
+        let toward = beam.toward.as_vec3();
+        (!irradiance.is_zero()).then_some(Arrival::Beam { toward, irradiance, radius: None })
     }
+}
+
+/// A place that light comes to by a surface.
+struct At<'a> {
+    place: &'a Place,
+    occlude: &'a dyn Occlude,
+    /// What is lost on the way from the surface \[1/m\].
+    loss: Spectrum,
 }
 
 impl Illuminate for Beams {
@@ -117,18 +131,20 @@ impl Illuminate for Beams {
         occlude: &dyn Occlude,
         receive: &mut dyn FnMut(Arrival),
     ) {
-        let at = place.position.as_dvec3();
-        let Some((water, map)) = self.under(at) else {
+        let point = place.position.as_dvec3();
+        let above = |wavy: &Wavy| point.y - wavy.water.surface.level;
+        if self.wavy.iter().any(|wavy| above(wavy).abs() <= wavy.near) {
             return self.flat.arrivals_on(face, place, occlude, receive);
-        };
-        map.beams.beams(at, map.beams.half_width(at, 0.5 * self.width), &mut |beam| {
-            // What comes from behind lights nothing, and needs no shadows; water's own points are lit from all sides, and ask twice.
-            if beam.toward.as_vec3().dot(place.normal) > 0.0
-                && let Some(arrival) = self.arrival(&beam, water, place, occlude)
-            {
-                receive(arrival);
-            }
-        });
+        }
+        let under = |wavy: &&Wavy| wavy.water.depth(point).is_some_and(|depth| depth > 0.0);
+        if let Some(wavy) = self.wavy.iter().find(under) {
+            let loss = wavy.water.water.loss(Loss::Diffuse);
+            return self.give(&wavy.through, &At { place, occlude, loss }, receive);
+        }
+        self.calm.arrivals_on(face, place, occlude, receive);
+        for wavy in self.wavy.iter().filter(|wavy| above(wavy) > 0.0) {
+            self.give(&wavy.mirrored, &At { place, occlude, loss: Spectrum::ZERO }, receive);
+        }
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {

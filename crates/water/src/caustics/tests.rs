@@ -262,7 +262,8 @@ fn lamp(at: DVec3, waves: Waves, points: &[DVec3]) -> Vec<[f64; 2]> {
     let setting = Setting { cells: 32.0, width: 0.0, disc: 0.0 };
     let source = Source::At(at);
     let flat = Lit::new(Box::new(lamp()), source, std::sync::Arc::clone(&waters), Paths::Exact);
-    let beams = Beams::new(std::sync::Arc::new(lamp()), source, waters, &[waves], (Paths::Exact, setting));
+    let beams =
+        Beams::new(std::sync::Arc::new(lamp()), source, waters, &[waves.into()], (Paths::Exact, setting));
     let irradiance = |by: &dyn Illuminate, position: &DVec3| {
         let place = Place { position: position.as_vec3(), error: 0.0, normal: Vec3::Y, seed: 0 };
         f64::from(by.irradiance(&place, &Vacuum)[3])
