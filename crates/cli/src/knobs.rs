@@ -327,6 +327,24 @@ pub const KNOBS: &[Knob] = &[
         doc: "diffuse reflections followed (thesis: 3); 0 = until 1e-5 of the light is left",
     },
     Knob {
+        name: "water.caustics",
+        domain: Domain::Choice(&["off", "beams"]),
+        presets: ["off", "beams", "beams"],
+        doc: "what waves do to the light of sun and lamps above them: nothing (light takes the paths of flat water, thesis 3.2), or they gather it, below the water and off it, by all its paths; where there are no waves all the same",
+    },
+    Knob {
+        name: "water.caustics.cells",
+        domain: Domain::Number(2.0, 1024.0),
+        presets: ["16", "32", "64"],
+        doc: "beams to the length of the shortest wave, along and across",
+    },
+    Knob {
+        name: "water.caustics.width",
+        domain: Domain::Number(0.0, 100.0),
+        presets: ["0.05", "0.02", "0"],
+        doc: "lines are no sharper than this [m]; the sun's disc and a half of a beam's width blur them in any case; the mean is the same whatever it is",
+    },
+    Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],

@@ -7,6 +7,7 @@ mod seen;
 mod solids;
 mod values;
 mod water;
+mod waves;
 
 use std::collections::BTreeMap;
 
@@ -22,6 +23,7 @@ pub(crate) use seen::{
 pub(crate) use solids::SolidTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
 pub(crate) use water::{PhaseTable, WaterTable};
+pub(crate) use waves::{WaveTable, WindTable};
 
 /// A table whose keys belong to a later version.
 pub(crate) type ReservedTable = BTreeMap<String, serde_json::Value>;

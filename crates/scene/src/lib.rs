@@ -38,6 +38,7 @@ mod solid;
 mod sun;
 pub mod triangulate;
 mod water;
+mod waves;
 pub mod weather;
 
 pub use camera_path::CameraPath;
@@ -50,4 +51,5 @@ pub use sky_table::SkyTable;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
 pub use water::{MeasuredWater, Water, WaterPhase, WaterQuality};
+pub use waves::{SurfaceWaves, Wave, Wind};
 pub use weather::Weather;

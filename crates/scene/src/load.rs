@@ -20,6 +20,7 @@ mod settings;
 mod site;
 mod solids;
 mod waters;
+mod waves;
 
 use std::path::Path;
 
@@ -128,7 +129,7 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     }
     solids::add(draft, root, &file.solid, &names)?;
     for (i, table) in file.water.iter().enumerate() {
-        draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table, &claims)?);
+        draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table, (&claims, &draft.site))?);
     }
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {

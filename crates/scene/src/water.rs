@@ -3,6 +3,8 @@
 use glam::DAffine3;
 use light::Mesh;
 
+use crate::SurfaceWaves;
+
 /// Water below a level surface, down to whatever its bottom is.
 #[derive(Clone, Debug)]
 pub struct Water {
@@ -18,6 +20,8 @@ pub struct Water {
     pub scattering_times: f64,
     /// Index of refraction relative to air; none = the water's own.
     pub index: Option<f64>,
+    /// What moves the surface, which is level on average.
+    pub waves: SurfaceWaves,
 }
 
 impl Water {

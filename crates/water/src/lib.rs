@@ -42,6 +42,7 @@
 //! assert!(scattering.sun(&sun, &ray, &[[0.0, 2.0]]).max() > 0.0);
 //! ```
 
+pub mod caustics;
 pub mod daylight;
 pub mod flat;
 pub mod path;
@@ -49,6 +50,7 @@ pub mod phase;
 mod quadrature;
 pub mod quality;
 pub mod scatter;
+pub mod waves;
 
 pub use daylight::{SkyBelow, SunBelow, mirrored_sun};
 pub use path::{Leg, Paths, Surface, Way};

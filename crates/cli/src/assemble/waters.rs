@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
 use light::{Geometry, Illuminate, Instance, PointSource, Shade, Traverse};
 use scene::Scene;
+use water::caustics::{Beams, Setting};
 use water::flat::{Along, Fill, FlatWater, Lit, Part, Rules, Scattered, Source as Kind, SurfaceShade};
 use water::scatter::LAMP_TOLERANCE;
+use water::waves::{Stokes, WaveError, Waves, WavyShade, Wind};
 use water::{Paths, Tolerance};
 
 use super::heavens::SKY;
@@ -20,15 +23,27 @@ use crate::pipeline::Source;
 pub(super) struct Waters {
     waters: Arc<[FlatWater]>,
     rules: Rules,
+    /// On each of them.
+    waves: Vec<Arc<Waves>>,
+    /// How finely waves gather light; none = they do not.
+    beams: Option<Setting>,
 }
 
 impl Waters {
     /// # Errors
-    /// A water that there is not, with those that there are.
+    /// A water that there is not, with those that there are; waves that cannot be.
     pub(super) fn of(scene: &Scene, settings: &Settings) -> Result<Option<Self>, Error> {
         let flat = |water: &scene::Water| Ok(FlatWater::new(quality(water)?, &water.surface, &water.place));
         let waters = scene.waters.iter().map(flat).collect::<Result<Arc<[_]>, Error>>()?;
-        Ok((!waters.is_empty()).then_some(Self { waters, rules: rules(settings) }))
+        let waves = scene.waters.iter().map(|water| Ok(Arc::new(waves(water, scene)?)));
+        let waves = waves.collect::<Result<_, Error>>()?;
+        let beams = (settings.choice("water.caustics") == "beams").then(|| Setting {
+            cells: settings.number("water.caustics.cells"),
+            width: settings.number("water.caustics.width"),
+            disc: 0.0,
+        });
+        let rules = rules(settings);
+        Ok((!waters.is_empty()).then_some(Self { waters, rules, waves, beams }))
     }
 
     /// All of them.
@@ -51,8 +66,12 @@ impl Waters {
 
     /// A shader for each surface.
     pub(super) fn shaders(&self) -> impl Iterator<Item = Box<dyn Shade>> {
-        (0..self.waters.len())
-            .map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)) })
+        self.waves.iter().enumerate().map(|(i, waves)| -> Box<dyn Shade> {
+            match waves.is_calm() {
+                true => Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)),
+                false => Box::new(WavyShade::new(self.waters[i].surface, Arc::clone(waves))),
+            }
+        })
     }
 
     pub(super) fn fill(&self) -> Arc<dyn Traverse> {
@@ -62,10 +81,28 @@ impl Waters {
     /// A source as it arrives above and below; its shadows are no straight lines any more.
     pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
         let Some(kind) = kind(scene, settings, &source) else { return source };
-        Source {
-            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.rules)),
-            point: None,
-            ..source
+        let light = self.bring(scene, (&source.name, kind), source.light.into(), Part::All);
+        Source { light, point: None, ..source }
+    }
+
+    /// A part of a source's light.
+    fn bring(
+        &self,
+        scene: &Scene,
+        (name, kind): (&str, Kind),
+        inner: Arc<dyn Illuminate>,
+        part: Part,
+    ) -> Box<dyn Illuminate> {
+        let waters = Arc::clone(&self.waters);
+        let wavy = self.waves.iter().any(|waves| !waves.is_calm());
+        match self.beams.filter(|_| kind != Kind::Around && wavy) {
+            Some(setting) => {
+                let sun = scene.sun.as_ref().filter(|_| name == SUN);
+                let disc = sun.map_or(0.0, |sun| 0.5 * sun.diameter.to_radians());
+                let how = (self.rules, Setting { disc, ..setting });
+                Box::new(Beams::new(inner, kind, waters, &self.waves, how).only(part))
+            }
+            None => Box::new(Lit::new(Box::new(inner), kind, waters, self.rules).only(part)),
         }
     }
 
@@ -74,10 +111,9 @@ impl Waters {
         let Some(kind) = kind(scene, settings, &source) else { return vec![(source, Way::Direct)] };
         let inner: Arc<dyn Illuminate> = Arc::from(source.light);
         let along = |(way, part): (Way, Part)| {
-            let inner = Box::new(Arc::clone(&inner));
-            let light = Lit::new(inner, kind.clone(), Arc::clone(&self.waters), self.rules).only(part);
+            let light = self.bring(scene, (&source.name, kind), Arc::clone(&inner), part);
             let name = source.name.clone();
-            (Source { name, light: Box::new(light), beam: source.beam, point: None }, way)
+            (Source { name, light, beam: source.beam, point: None }, way)
         };
         let ways =
             [(Way::Direct, Part::Direct), (Way::Reflected, Part::Reflected), (Way::Through, Part::Through)];
@@ -120,4 +156,24 @@ fn rules(settings: &Settings) -> Rules {
         window: settings.integer("water.sky-rays"),
         shafts: settings.integer("water.sky-shafts"),
     }
+}
+
+/// The waves of a water, at its moment.
+fn waves(water: &scene::Water, scene: &Scene) -> Result<Waves, Error> {
+    let fault = |what: String, error: WaveError| {
+        Error::Content(format!("[[water]] {:?}, {what}: {error}", water.name))
+    };
+    let given = water.waves.each.iter().enumerate().map(|(i, wave)| {
+        Stokes::new(wave.amplitude, wave.wavelength, wave.toward, wave.phase)
+            .map_err(|error| fault(format!("waves, number {}", i + 1), error))
+    });
+    let mut all = given.collect::<Result<Vec<_>, Error>>()?;
+    if let Some(wind) = &water.waves.wind {
+        let scene::Wind { speed, fetch, toward, depth, waves, seed } = *wind;
+        let wind = Wind { speed, fetch, toward, depth, waves: waves as usize };
+        all.extend(wind.raise(seed).map_err(|error| fault("wind".to_owned(), error))?);
+    }
+    // Phases count from where the file's coordinates do.
+    let origin = DVec2::new(-scene.origin.x, -scene.origin.z);
+    Ok(Waves::new(all, origin).at_moment(water.waves.moment))
 }

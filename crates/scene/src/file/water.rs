@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::PolygonTable;
+use super::{PolygonTable, WaveTable, WindTable};
 
 /// Water: everything below a level surface. One of polygon, node, material; at most one of quality, secchi, chlorophyll, and two of
 /// absorption, scattering, extinction.
@@ -40,6 +40,12 @@ pub(crate) struct WaterTable {
     /// Index of refraction relative to air. Default: the water's own.
     #[schemars(range(min = 1.0, max = 2.0))]
     pub(crate) index: Option<f64>,
+    /// Waves on its surface, up to 1024. Default none: it is flat.
+    pub(crate) waves: Option<Vec<WaveTable>>,
+    /// A wind that raises more of them.
+    pub(crate) wind: Option<WindTable>,
+    /// When the waves are looked at [s]. Default 0.
+    pub(crate) moment: Option<f64>,
 }
 
 /// Where water scatters light: a name, the numbers of a formula, or a table.

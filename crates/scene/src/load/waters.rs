@@ -4,9 +4,10 @@ mod quality;
 mod surface;
 
 use super::models::Claims;
+use super::waves;
 use crate::document::Spot;
 use crate::file::WaterTable;
-use crate::{Error, Water};
+use crate::{Error, Site, Water};
 
 pub(crate) use surface::claims;
 
@@ -18,7 +19,7 @@ pub(crate) fn water(
     spot: &Spot<'_>,
     number: usize,
     table: &WaterTable,
-    claims: &Claims,
+    (claims, site): (&Claims, &Site),
 ) -> Result<Water, Error> {
     let (surface, place) = match &table.polygon {
         Some(polygon) => surface::drawn(&spot.key("polygon"), polygon)?,
@@ -26,8 +27,10 @@ pub(crate) fn water(
     };
     let times =
         spot.key("scattering_times").within(table.scattering_times.unwrap_or(1.0), 0.0, MOST_TIMES, "")?;
+    let name = table.name.clone().unwrap_or_else(|| format!("water-{number}"));
     Ok(Water {
-        name: table.name.clone().unwrap_or_else(|| format!("water-{number}")),
+        waves: waves::waves(spot, table, site, &name)?,
+        name,
         surface,
         place,
         quality: quality::quality(spot, table)?,

@@ -41,6 +41,11 @@ impl FlatWater {
         }
     }
 
+    /// The rectangle about the outline: its corners of least and largest x and z \[m\].
+    pub fn extent(&self) -> [DVec2; 2] {
+        [self.low, self.high]
+    }
+
     /// Whether the vertical through x, z meets the surface; its rim belongs to it.
     pub fn covers(&self, at: DVec2) -> bool {
         let boxed = at.cmpge(self.low).all() && at.cmple(self.high).all();
