@@ -45,9 +45,12 @@ fn the_sun_in_deep_water_and_a_shadow_in_it() {
         // A field of 0.2° and sums in f32.
         assert!((open[b] / expected[b] - 1.0).abs() < 1e-4, "{b}: {} {}", open[b], expected[b]);
     }
-    // A roof 1 m above the water, to x = h/tan 30° + 0.4: the surface is dark to x = 0.4, the ray below the eye to where its light comes in there.
+    // A roof 1 m above the water, to x = h/tan 30° + 0.4: the surface is dark to x = 0.4, the ray below the eye to where its light comes in there. The roof is black, as it is mirrored.
     let edge = 1.0 / f64::to_radians(30.0).tan() + 0.4 - 50.0;
-    let roof = format!("[[model]]\nplane = {{ size = [100, 100] }}\nposition = [{edge}, 1, 0]\n");
+    let roof = format!(
+        "[[material]]\nname = 'black'\ncolour = 0\n\
+        [[model]]\nplane = {{ size = [100, 100] }}\nmaterial = 'black'\nposition = [{edge}, 1, 0]\n"
+    );
     let shaded = nadir(0.5, &format!("{WATER}{roof}"), &single);
     let dark_to = 0.4 * cos / sin;
     for b in 0..8 {
