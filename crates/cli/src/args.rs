@@ -1,6 +1,7 @@
 //! The command line.
 
 mod skies;
+mod waters;
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -11,6 +12,7 @@ use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
 
 pub use skies::{Place, Projection, Sky, Toward, When};
+pub use waters::Water;
 
 /// Landscape and lighting simulation: pictures and lux one can trust.
 #[derive(Debug, Parser)]
@@ -40,6 +42,8 @@ pub enum Command {
     Lux(Lux),
     /// What the sky of a place and time is: luminance, lux, colours; as a table, as a picture.
     Sky(Sky),
+    /// What a water does to light: colours, 1/e depths, critical angle.
+    Water(Water),
     /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
     Compare(Compare),
     /// Print the JSON Schema of scene files.

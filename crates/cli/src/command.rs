@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::publish::{self, Content, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
-use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress, skies};
+use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress, skies, waters};
 
 /// The scene that is rendered when none is named.
 const PARK: &str = include_str!("../scenes/park.toml");
@@ -32,6 +32,7 @@ pub fn run(cli: &Cli) -> Result<(), Error> {
         Command::Plan(args) => plan(args, cli.json),
         Command::Lux(args) => illuminances(args, cli.json),
         Command::Sky(args) => skies::run(args, cli.json),
+        Command::Water(args) => waters::run(args, cli.json),
         Command::Compare(args) => compare::run(args, cli.json),
         Command::Schema => say(&pretty(&scene::schema())),
     })
@@ -64,14 +65,13 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     }
     let plan = Plan::new(&scene, &args.view)?.at_sensors();
     caution(&plan);
-    let pipeline = assemble::assemble(&plan, &scene)?;
-    let table = lux::table(&scene, &pipeline);
-    for u in &table.uniformity {
-        eprintln!(
-            "{}: min {:.3} lx, mean {:.3} lx, max {:.3} lx, uniformity {:.3}",
-            u.sensor, u.minimum, u.mean, u.maximum, u.uniformity
-        );
+    let measuring = assemble::Measuring::new(&plan, &scene)?;
+    let table = lux::measure(&scene, &measuring);
+    let buried = lux::buried(&scene, &*measuring.pipeline.nearest, &table);
+    for warning in measuring.warnings.iter().chain(&buried) {
+        eprintln!("warning: {warning}");
     }
+    table.uniformity.iter().for_each(|sensor| eprintln!("{sensor}"));
     say(&if json { pretty(&table) } else { table.to_string() })
 }
 

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::Error;
+use crate::lux::REPEATS;
 
 /// A named quality: `--preset`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
@@ -290,6 +291,60 @@ pub const KNOBS: &[Knob] = &[
         doc: "directions of the sky whose shadows along view rays under water are cut out of the light that it scatters; 0 = nothing hides it (thesis); time grows with it",
     },
     Knob {
+        name: "interreflection",
+        domain: Domain::Choice(&["off", "patches"]),
+        presets: ["off"; 3],
+        doc: "whether surfaces light each other, diffusely and from face to face; off leaves it out",
+    },
+    Knob {
+        name: "interreflection.patches",
+        domain: Domain::Integer(16, 1_000_000),
+        presets: ["2000", "8000", "40000"],
+        doc: "no more patches than this, as far as the faces themselves are not more (two for each, less those that no light reaches)",
+    },
+    Knob {
+        name: "interreflection.patch",
+        domain: Domain::OwnOr(0.001, 1e6),
+        presets: ["own"; 3],
+        doc: "longest edge of a patch [m]; own = as fine as interreflection.patches allow",
+    },
+    Knob {
+        name: "interreflection.share",
+        domain: Domain::Number(0.0001, 1.0),
+        presets: ["0.1", "0.05", "0.02"],
+        doc: "what fills no more than this share of a patch's hemisphere is seen as one",
+    },
+    Knob {
+        name: "interreflection.rays",
+        domain: Domain::Integer(1, 1024),
+        presets: ["2", "4", "16"],
+        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree",
+    },
+    Knob {
+        name: "interreflection.orders",
+        domain: Domain::Integer(0, 1000),
+        presets: ["3", "0", "0"],
+        doc: "diffuse reflections followed (thesis: 3); 0 = until 1e-5 of the light is left",
+    },
+    Knob {
+        name: "water.caustics",
+        domain: Domain::Choice(&["off", "beams"]),
+        presets: ["off", "beams", "beams"],
+        doc: "what waves do to the light of sun and lamps above them: nothing (light takes the paths of flat water, thesis 3.2), or they gather it, below the water and off it, by all its paths; where there are no waves all the same",
+    },
+    Knob {
+        name: "water.caustics.cells",
+        domain: Domain::Number(2.0, 1024.0),
+        presets: ["16", "32", "64"],
+        doc: "beams to the length of the shortest wave, along and across",
+    },
+    Knob {
+        name: "water.caustics.width",
+        domain: Domain::Number(0.0, 100.0),
+        presets: ["0.05", "0.02", "0"],
+        doc: "lines are no sharper than this [m]; the sun's disc and a half of a beam's width blur them in any case; the mean is the same whatever it is",
+    },
+    Knob {
         name: "body.samples",
         domain: Domain::Integer(1, 4096),
         presets: ["4", "8", "64"],
@@ -357,11 +412,12 @@ impl Settings {
         }
     }
 
-    /// The same for `keikan lux`: sensors are few, and stand where little of the sky is seen.
+    /// The same for `keikan lux`: sensors are few, and stand where little of the sky is seen. They are asked several times,
+    /// each with its share of the rays.
     pub fn at_sensors(mut self) -> Self {
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
-            self.0.insert("sky.rays", rays.to_string());
+            self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
             let window = rays.min(1024).max(self.integer("water.sky-rays"));
             self.0.insert("water.sky-rays", window.to_string());
             self.0.insert("sky.visibility", "rays".to_owned());
@@ -434,9 +490,9 @@ mod tests {
     fn sensors_ask_more_of_the_sky_unless_told_how() {
         let mut settings = Settings::preset(Preset::Normal);
         let at_sensors = settings.clone().at_sensors();
-        assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 4096));
+        assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 1024));
         settings.set("sky.rays", "9999", "--set").unwrap();
-        assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 9999);
+        assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 2500);
         settings.set("sky.visibility", "cuboid", "--set").unwrap();
         assert_eq!(settings.clone().at_sensors(), settings);
     }

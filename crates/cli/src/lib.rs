@@ -1,6 +1,6 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `compare`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
@@ -28,6 +28,7 @@ pub mod report;
 pub mod shadows;
 mod skies;
 pub mod studio;
+mod waters;
 
 pub use command::run;
 pub use error::Error;

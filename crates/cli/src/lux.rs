@@ -1,115 +1,108 @@
-//! Illuminance at sensors, by source.
+//! Illuminance at sensors, by source and by the way its light takes.
 
-use std::fmt;
+mod buried;
+mod table;
 
 use glam::{DVec3, Vec3};
 use light::{Place, rounding};
 use rayon::prelude::*;
 use scene::{Scene, Sensor};
 
+use crate::assemble::{Column, Measuring, Way};
 use crate::pipeline::Pipeline;
 
-/// Lux of one sensor point.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct Row {
-    /// Name of the sensor.
-    pub sensor: String,
-    /// Number of the point within it, from 0.
-    pub point: usize,
-    /// Where, in the coordinates of the file \[m\].
-    pub position: [f64; 3],
-    /// All sources together \[lx\].
-    pub total: f64,
-    /// Each source \[lx\], in the order of [`Table::sources`].
-    pub parts: Vec<f64>,
-}
+pub use buried::buried;
+pub use table::{Row, Table, Uniformity};
 
-/// Lux of a scene's sensors.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct Table {
-    /// Names of the sources.
-    pub sources: Vec<String>,
-    /// One row per point.
-    pub rows: Vec<Row>,
-    /// Minimum, mean and uniformity (minimum / mean) of each sensor with several points.
-    pub uniformity: Vec<Uniformity>,
-}
+/// How often every sensor is asked in `keikan lux`, each time with other directions: what the answers differ by says how
+/// far their mean may be off.
+pub const REPEATS: u32 = 4;
 
-/// How even the light on a sensor is.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct Uniformity {
-    /// Name of the sensor.
-    pub sensor: String,
-    /// Smallest illuminance \[lx\].
-    pub minimum: f64,
-    /// Mean illuminance \[lx\].
-    pub mean: f64,
-    /// Largest illuminance \[lx\].
-    pub maximum: f64,
-    /// Minimum / mean; 0 where there is no light.
-    pub uniformity: f64,
-}
-
-/// Illuminance at every sensor point of the scene.
+/// Illuminance at every sensor point of the scene by a pipeline as it is, asked once: no errors are estimated.
 pub fn table(scene: &Scene, pipeline: &Pipeline) -> Table {
+    let column = |name: &String| Column { source: name.clone(), way: Way::Direct };
+    let columns = pipeline.sources.iter().map(|source| column(&source.name)).collect();
+    Table::new(
+        scene,
+        columns,
+        rows(scene, |sensor, point, position| Row {
+            parts: by_sources(pipeline, &place(position, sensor.normal.as_vec3(), point as u32)),
+            ..Row::at(sensor, point, position + scene.origin)
+        }),
+    )
+}
+
+/// The same by the ways that light takes, with estimated errors.
+pub fn measure(scene: &Scene, measuring: &Measuring) -> Table {
+    let columns = measuring.columns.clone();
+    Table::new(
+        scene,
+        columns,
+        rows(scene, |sensor, point, position| {
+            let asked = |repeat: u32| {
+                // Seeds of neighbouring points differ by little, those of repeats by much.
+                let seed = point as u32 ^ repeat.wrapping_mul(0x9E37_79B9);
+                by_sources(&measuring.pipeline, &place(position, sensor.normal.as_vec3(), seed))
+            };
+            let answers: Vec<Vec<f64>> = (0..REPEATS).map(asked).collect();
+            let parts = (0..answers[0].len()).map(|i| mean(answers.iter().map(|answer| answer[i]))).collect();
+            let sampled =
+                standard_error(&answers.iter().map(|answer| answer.iter().sum()).collect::<Vec<f64>>());
+            let mut row = Row { parts, ..Row::at(sensor, point, position + scene.origin) };
+            let patches = measuring.coarser.as_ref().map(|coarser| {
+                let place = place(position, sensor.normal.as_vec3(), point as u32);
+                let coarse = coarser.light.irradiance(&place, &*measuring.pipeline.occlude).luminance();
+                f64::from(coarse) - row.along(&measuring.columns, Way::Interreflected)
+            });
+            row.error = Some(sampled.hypot(patches.unwrap_or(0.0)));
+            row
+        }),
+    )
+}
+
+fn rows(scene: &Scene, row: impl Fn(&Sensor, usize, DVec3) -> Row + Sync) -> Vec<Row> {
     let points: Vec<(&Sensor, usize, DVec3)> = scene
         .sensors
         .iter()
         .flat_map(|sensor| sensor.points.iter().enumerate().map(move |(i, &point)| (sensor, i, point)))
         .collect();
-    let rows: Vec<Row> = points
-        .par_iter()
-        .map(|&(sensor, point, position)| {
-            let parts: Vec<f64> = pipeline
-                .irradiances(&place(position, sensor.normal.as_vec3(), point))
-                .into_iter()
-                .map(|irradiance| f64::from(irradiance.luminance()))
-                .collect();
-            let position = (position + scene.origin).to_array();
-            Row { sensor: sensor.name.clone(), point, position, total: parts.iter().sum(), parts }
-        })
-        .collect();
-    let uniformity =
-        scene.sensors.iter().filter(|s| s.points.len() > 1).map(|s| uniformity(&s.name, &rows)).collect();
-    Table { sources: pipeline.sources.iter().map(|source| source.name.clone()).collect(), rows, uniformity }
+    points.par_iter().map(|&(sensor, point, position)| row(sensor, point, position)).collect()
+}
+
+/// Lux by each source.
+fn by_sources(pipeline: &Pipeline, place: &Place) -> Vec<f64> {
+    pipeline.irradiances(place).into_iter().map(|irradiance| f64::from(irradiance.luminance())).collect()
 }
 
 /// The place of a sensor point: as exact as f32 lets it be, so that it may lie on a surface.
-fn place(position: DVec3, normal: Vec3, point: usize) -> Place {
+fn place(position: DVec3, normal: Vec3, seed: u32) -> Place {
     let rounded = position.as_vec3();
     // ½ ulp for the point, and as much again for the corners of the face it may lie on.
     let error = 4.0 * rounding::UNIT * rounded.abs().max_element();
-    Place { position: rounded, error, normal, seed: point as u32 }
+    Place { position: rounded, error, normal, seed }
 }
 
-fn uniformity(name: &str, rows: &[Row]) -> Uniformity {
-    let totals: Vec<f64> = rows.iter().filter(|row| row.sensor == name).map(|row| row.total).collect();
-    let mean = totals.iter().sum::<f64>() / totals.len().max(1) as f64;
-    let minimum = totals.iter().copied().fold(f64::INFINITY, f64::min);
-    let maximum = totals.iter().copied().fold(0.0, f64::max);
-    let uniformity = if mean > 0.0 { minimum / mean } else { 0.0 };
-    Uniformity { sensor: name.to_owned(), minimum, mean, maximum, uniformity }
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len().max(1) as f64;
+    values.sum::<f64>() / count
 }
 
-impl fmt::Display for Table {
-    /// CSV with a header line; numbers in lx and m.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "sensor,point,x_m,y_m,z_m,total_lx")?;
-        self.sources.iter().try_for_each(|source| write!(f, ",{}_lx", quoted(source)))?;
-        for row in &self.rows {
-            let [x, y, z] = row.position;
-            write!(f, "\n{},{},{x},{y},{z},{:.6}", quoted(&row.sensor), row.point, row.total)?;
-            row.parts.iter().try_for_each(|part| write!(f, ",{part:.6}"))?;
-        }
-        Ok(())
-    }
+/// Of the mean of independent values: their standard deviation over √count.
+fn standard_error(values: &[f64]) -> f64 {
+    let (count, middle) = (values.len() as f64, mean(values.iter().copied()));
+    let squares: f64 = values.iter().map(|value| (value - middle).powi(2)).sum();
+    (squares / (count * (count - 1.0)).max(1.0)).sqrt()
 }
 
-/// A CSV field: quoted where it must be.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_of_a_mean_is_that_of_the_textbook() {
+        // Deviations −3, −1, 1, 3: 20/(4·3), root.
+        assert!((standard_error(&[1.0, 3.0, 5.0, 7.0]) - (20.0f64 / 12.0).sqrt()).abs() < 1e-15);
+        assert_eq!(standard_error(&[2.0]), 0.0);
+        assert_eq!(standard_error(&[2.0; 4]), 0.0);
     }
 }

@@ -99,9 +99,10 @@ impl Studio {
         monitor: &Monitor,
         seconds: &mut Timings,
     ) -> Result<Shot, Error> {
-        let (scene, plan) = self.set_up(spec)?;
+        let (scene, mut plan) = self.set_up(spec)?;
         fits(&plan, &scene, self.layers)?;
-        let pipeline = seconds.time("assemble", || self.pipeline(spec, &plan, &scene))?;
+        let pipeline = self.pipeline(spec, &plan, &scene, seconds)?;
+        plan.warnings.extend(self.standing.iter().flat_map(|standing| standing.warnings(&scene)));
         monitor.rendering.store(true, Ordering::Relaxed);
         monitor.rows.store(0, Ordering::Relaxed);
         let film = seconds.time("render", || {
@@ -113,15 +114,29 @@ impl Studio {
     }
 
     /// The stages of a frame: new ones only as far as it differs from the last.
-    fn pipeline(&mut self, spec: &FrameSpec, plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
+    fn pipeline(
+        &mut self,
+        spec: &FrameSpec,
+        plan: &Plan,
+        scene: &Scene,
+        seconds: &mut Timings,
+    ) -> Result<Pipeline, Error> {
         let standing = match self.standing.take() {
             Some(standing) => standing,
-            None => Standing::new(plan, scene)?,
+            None => seconds.time("assemble", || Standing::new(plan, scene))?,
         };
         let standing = self.standing.insert(standing);
         let lit = match self.lit.take() {
             Some(lit) if lit.clock == spec.clock => lit,
-            _ => Lit { clock: spec.clock, sources: standing.light(plan, scene, &mut self.maps) },
+            _ => {
+                let mut sources = seconds.time("light", || standing.light(plan, scene, &mut self.maps));
+                if plan.settings.choice("interreflection") != "off" {
+                    let more =
+                        seconds.time("interreflection", || standing.interreflected(plan, scene, &sources));
+                    sources.extend(more);
+                }
+                Lit { clock: spec.clock, sources: sources.into() }
+            }
         };
         let sources = Arc::clone(&self.lit.insert(lit).sources);
         standing.pipeline(plan, scene, sources)

@@ -217,7 +217,7 @@ fn the_rule_for_shadows_and_lamps_beyond_it_are_named() {
 fn lux_are_a_table() {
     let folder = folder("lux");
     let csv = text(&keikan(&folder, &["lux"]).stdout);
-    assert!(csv.starts_with("sensor,point,x_m,y_m,z_m,total_lx,sun_lx,sky_lx"), "{csv}");
+    assert!(csv.starts_with("sensor,point,x_m,y_m,z_m,total_lx,error_lx,sun_lx,sky_lx"), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 24 + 2);
     let table: serde_json::Value =
         serde_json::from_slice(&keikan(&folder, &["lux", "--json"]).stdout).unwrap();

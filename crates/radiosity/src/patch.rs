@@ -70,6 +70,13 @@ pub trait Surfaces: Sync {
 
     /// Diffuse reflectance of a patch per band; brought to within \[0, 1\].
     fn reflectance(&self, patch: &Patch) -> Spectrum;
+
+    /// Which part of space the patch is lit in, such as air or water: from one part to another light on a face does not go on
+    /// smoothly.
+    fn part(&self, patch: &Patch) -> u32 {
+        let _ = patch;
+        0
+    }
 }
 
 /// Everything takes part.
@@ -110,6 +117,8 @@ pub struct Patches {
     /// By node: its patch, or none.
     pub(crate) patch_of: Vec<u32>,
     reflectances: Vec<Spectrum>,
+    /// By patch, as [`Surfaces::part`].
+    pub(crate) parts: Vec<u32>,
     /// By triangle of all placements, front and back: its node, or none.
     roots: Vec<[u32; 2]>,
     /// Triangles of all placements before each.
@@ -150,6 +159,7 @@ impl Patches {
             leaves: Vec::new(),
             patch_of: vec![NONE; tree.nodes.len()],
             reflectances: Vec::new(),
+            parts: Vec::new(),
             owners: Vec::new(),
             roots: Vec::new(),
             before,
@@ -168,8 +178,8 @@ impl Patches {
             }
         }
         patches.roots = roots;
-        patches.reflectances =
-            (0..patches.len()).map(|i| share(surfaces.reflectance(&patches.patch(i)))).collect();
+        patches.reflectances = patches.iter().map(|patch| share(surfaces.reflectance(&patch))).collect();
+        patches.parts = patches.iter().map(|patch| surfaces.part(&patch)).collect();
         patches
     }
 

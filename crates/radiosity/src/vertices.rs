@@ -66,16 +66,17 @@ impl Vertices {
 
 /// Numbers of the vertices at the corners of every patch, and how many there are.
 fn joined(geometry: &Geometry, patches: &Patches) -> (Vec<[u32; 3]>, usize) {
-    // What meets at a position: normal of the face, normal for shading, and the vertex.
-    let mut met: HashMap<[u64; 3], Vec<(Vec3, Vec3, u32)>> = HashMap::new();
+    // What meets at a position in one part of space: normal of the face, normal for shading, and the vertex.
+    let mut met: HashMap<([u64; 3], u32), Vec<(Vec3, Vec3, u32)>> = HashMap::new();
     let mut count = 0;
     let mut corners = Vec::with_capacity(patches.len());
-    for patch in patches.iter() {
+    for (patch, &part) in patches.iter().zip(&patches.parts) {
         let flat = patch.normal().as_vec3();
         corners.push(patch.corners.map(|at| {
             let smooth = shading_normal(geometry, &patch, at);
             // 0 and −0 are one place.
-            let here = met.entry((at + DVec3::ZERO).to_array().map(f64::to_bits)).or_default();
+            let position = (at + DVec3::ZERO).to_array().map(f64::to_bits);
+            let here = met.entry((position, part)).or_default();
             let same =
                 |&&(other, bent, _): &&(Vec3, Vec3, u32)| bent.dot(smooth) >= SMOOTH && other.dot(flat) > 0.0;
             if let Some(&(_, _, vertex)) = here.iter().find(same) {

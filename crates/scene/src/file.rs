@@ -6,6 +6,8 @@ mod placed;
 mod seen;
 mod solids;
 mod values;
+mod water;
+mod waves;
 
 use std::collections::BTreeMap;
 
@@ -13,13 +15,15 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(crate) use placed::{
-    ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable, WaterTable,
+    ConeTable, LightTable, MaterialTable, ModelTable, PolygonTable, PrismTable, TerrainTable,
 };
 pub(crate) use seen::{
     CameraTable, Ease, GridTable, KeyTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable,
 };
 pub(crate) use solids::SolidTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
+pub(crate) use water::{PhaseTable, WaterTable};
+pub(crate) use waves::{WaveTable, WindTable};
 
 /// A table whose keys belong to a later version.
 pub(crate) type ReservedTable = BTreeMap<String, serde_json::Value>;

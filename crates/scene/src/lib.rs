@@ -37,6 +37,8 @@ pub mod sky_table;
 mod solid;
 mod sun;
 pub mod triangulate;
+mod water;
+mod waves;
 pub mod weather;
 
 pub use camera_path::CameraPath;
@@ -48,4 +50,6 @@ pub use scene::*;
 pub use sky_table::SkyTable;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
+pub use water::{MeasuredWater, Water, WaterPhase, WaterQuality};
+pub use waves::{SurfaceWaves, Wave, Wind};
 pub use weather::Weather;

@@ -20,6 +20,7 @@ mod settings;
 mod site;
 mod solids;
 mod waters;
+mod waves;
 
 use std::path::Path;
 
@@ -121,13 +122,14 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
             }
         }
     }
+    let mut claims = waters::claims(root, &file.water)?;
     let mut library = models::Library::default();
     for (i, table) in file.model.iter().enumerate() {
-        models::add(draft, &mut library, &root.key("model").index(i), table, &names)?;
+        models::add(draft, &mut library, &root.key("model").index(i), table, &names, &mut claims)?;
     }
     solids::add(draft, root, &file.solid, &names)?;
     for (i, table) in file.water.iter().enumerate() {
-        draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table)?);
+        draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table, (&claims, &draft.site))?);
     }
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {

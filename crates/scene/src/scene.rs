@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
-use light::{Distribution, Geometry, Mesh, Projection};
+use glam::{DMat3, DVec3, Vec3};
+use light::{Distribution, Geometry, Projection};
 
-use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Weather};
+use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Water, Weather};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub struct Scene {
     pub waters: Vec<Water>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
-    /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky` or `emission`.
+    /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky`, `interreflected` or `emission`.
     pub lights: Vec<Light>,
     /// Lamps that have an extent.
     pub area_lights: Vec<AreaLight>,
@@ -58,28 +58,6 @@ pub struct Site {
     pub offset: jiff::tz::Offset,
     /// Degrees clockwise from −Z (seen from above) to true north; 0 = north is −Z.
     pub north: f64,
-}
-
-/// Water below a level surface, down to whatever its bottom is.
-#[derive(Clone, Debug)]
-pub struct Water {
-    /// Its name, or `water-3`.
-    pub name: String,
-    /// The surface about its own middle, at y = 0, seen from above.
-    pub surface: Mesh,
-    /// Where that middle is in the world \[m\]; nothing is turned.
-    pub place: DAffine3,
-    /// Which water, by name.
-    pub quality: String,
-    /// Index of refraction relative to air; none = the water's own.
-    pub index: Option<f64>,
-}
-
-impl Water {
-    /// Height y of the surface in the world \[m\].
-    pub fn level(&self) -> f64 {
-        self.place.translation.y
-    }
 }
 
 /// A lamp.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use keikan_scene::{Error, Scene, parse};
+use keikan_scene::{Error, MeasuredWater, Scene, WaterPhase, WaterQuality, parse};
 
 fn read(text: &str) -> Result<Scene, Error> {
     parse(text, Path::new(""), Path::new("a.toml"))
@@ -16,7 +16,8 @@ fn a_surface_is_level_and_looks_up_whichever_way_it_is_drawn() {
     ] {
         let scene = read(&format!("[[water]]\npolygon = {{ points = [{points}] }}\n")).unwrap();
         let water = &scene.waters[0];
-        assert_eq!((water.name.as_str(), water.quality.as_str(), water.index), ("water-1", "pool", None));
+        assert_eq!((water.name.as_str(), water.scattering_times, water.index), ("water-1", 1.0, None));
+        assert_eq!(water.quality, WaterQuality::Named("pool".to_owned()));
         assert_eq!(water.level(), 1.5);
         let corner = |i: u32| water.surface.positions[i as usize];
         let up = |[a, b, c]: &[u32; 3]| 0.5 * (corner(*b) - corner(*a)).cross(corner(*c) - corner(*a)).y;
@@ -42,5 +43,115 @@ fn a_surface_that_is_none_is_named() {
         let message =
             read(&format!("[[water]]\n{water}\n")).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{water}: {message}");
+    }
+}
+
+/// A square of 4 m at y = 0 with its quality.
+fn pond(quality: &str) -> Result<Scene, Error> {
+    read(&format!(
+        "[[water]]\npolygon = {{ points = [[0, 0, 0], [4, 0, 0], [4, 0, 4], [0, 0, 4]] }}\n{quality}\n"
+    ))
+}
+
+#[test]
+fn a_water_is_given_by_what_is_known_of_it() {
+    let measured = |phase| {
+        WaterQuality::Measured(MeasuredWater {
+            absorption: Some(vec![(450.0, 0.1), (650.0, 0.4)]),
+            scattering: Some(vec![(550.0, 0.2)]),
+            extinction: None,
+            phase,
+        })
+    };
+    let numbers = "absorption = [[450, 0.1], [650, 0.4]]\nscattering = [[550, 0.2]]";
+    for (text, expected) in [
+        ("quality = 'sea'", WaterQuality::Named("sea".to_owned())),
+        ("secchi = 3", WaterQuality::Secchi(3.0)),
+        ("chlorophyll = 0.5", WaterQuality::Chlorophyll(0.5)),
+        (numbers, measured(WaterPhase::Petzold)),
+        (&format!("{numbers}\nphase = 'molecular'"), measured(WaterPhase::Molecular)),
+        (
+            &format!("{numbers}\nphase = {{ forward = 0.9, backward = 0.57 }}"),
+            measured(WaterPhase::BeardsleyZaneveld([0.9, 0.57])),
+        ),
+        (
+            &format!("{numbers}\nphase = {{ index = 1.1, slope = 3.6 }}"),
+            measured(WaterPhase::FournierForand([1.1, 3.6])),
+        ),
+        (
+            &format!("{numbers}\nphase = [[0, 2], [180, 1]]"),
+            measured(WaterPhase::Table(vec![(0.0, 2.0), (180.0, 1.0)])),
+        ),
+    ] {
+        assert_eq!(pond(text).unwrap().waters[0].quality, expected, "{text}");
+    }
+    assert_eq!(pond("scattering_times = 200").unwrap().waters[0].scattering_times, 200.0);
+}
+
+#[test]
+fn a_water_that_is_none_is_named() {
+    for (text, expected) in [
+        ("quality = 'sea'\nsecchi = 3", "quality and secchi at once"),
+        ("absorption = [[550, 1]]", "two are needed"),
+        ("absorption = []\nscattering = [[550, 1]]", "0 rows"),
+        ("phase = 'petzold'", "is for water that is measured"),
+        ("scattering = [[550, 1]]\nextinction = [[550, 1]]\nphase = 'milk'", "\"milk\" is unknown"),
+        ("scattering_times = -1", "scattering_times"),
+        ("model = 'garden'", "names none"),
+    ] {
+        let message = pond(text).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{text}: {message}");
+    }
+}
+
+/// One triangle of 1 m, lying as node `pond` 0.5 m high and standing as node `bank`.
+const MODEL: &str = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+  "nodes": [ { "mesh": 0, "name": "pond", "rotation": [-0.70710678118, 0, 0, 0.70710678118], "translation": [0, 0.5, 0] },
+    { "mesh": 0, "name": "bank" } ],
+  "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] }], "materials": [{ "name": "Slime" }],
+  "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] }],
+  "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+  "buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
+
+/// What `text` is beside `garden.gltf`.
+fn garden(test: &str, text: &str) -> Result<Scene, Error> {
+    let folder = std::env::temp_dir().join(format!("keikan-waters-{}-{test}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("garden.gltf"), MODEL).unwrap();
+    let scene = parse(text, &folder, Path::new("a.toml"));
+    std::fs::remove_dir_all(&folder).unwrap();
+    scene
+}
+
+fn is_the_pond(scene: &Scene) {
+    assert_eq!(scene.geometry.instances.len(), 1, "the bank alone");
+    let water = &scene.waters[0];
+    // f32 corners and a quaternion of eleven digits.
+    assert!((water.level() + scene.origin.y - 1.5).abs() < 1e-6, "{}", water.level());
+    let corners = |i: u32| water.surface.positions[i as usize];
+    let [a, b, c] = water.surface.triangles[0].map(corners);
+    let area = 0.5 * (b - a).cross(c - a).y;
+    assert!((area - 0.5).abs() < 1e-6, "{area}");
+    let lowest = [a, b, c].map(|corner| f64::from(corner.x) + water.place.translation.x + scene.origin.x);
+    assert!(lowest.iter().all(|x| (10.0 - 1e-6..=11.0 + 1e-6).contains(x)), "{lowest:?}");
+}
+
+#[test]
+fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
+    let model = "[[model]]\nname = 'garden'\nfile = 'garden.gltf'\nposition = [10, 1, 0]\n";
+    // Of the material, the bank stands on: nothing of it is level at the top.
+    for wanted in ["node = 'pond'\nmodel = 'garden'", "material = 'Slime'"] {
+        is_the_pond(&garden("node", &format!("{model}[[water]]\n{wanted}\n")).unwrap());
+    }
+    for (text, expected) in [
+        ("node = 'bank'", "is 1.000 m off that"),
+        ("node = 'lake'", "no model shows a node of that name; there are \"bank\", \"pond\""),
+        ("node = 'pond'\nmodel = 'park'", "no model shows a node"),
+        ("material = 'slime'", "no model shows a material of that name; there are"),
+        ("node = 'pond'\npolygon = { points = [] }", "polygon and node at once"),
+    ] {
+        let message = garden("fault", &format!("{model}[[water]]\n{text}\n")).err().map(|e| e.to_string());
+        let message = message.unwrap_or_default();
+        assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{text}: {message}");
     }
 }

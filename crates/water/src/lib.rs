@@ -45,6 +45,7 @@
 //! assert!(scattering.sun(&sun, &ray, &[[0.0, 2.0]]).max() > 0.0);
 //! ```
 
+pub mod caustics;
 pub mod daylight;
 pub mod flat;
 pub mod path;
@@ -52,6 +53,7 @@ pub mod phase;
 mod quadrature;
 pub mod quality;
 pub mod scatter;
+pub mod waves;
 
 pub use daylight::{SkyBelow, SunBelow, mirrored_sun};
 pub use path::{Leg, Paths, Surface, Way};

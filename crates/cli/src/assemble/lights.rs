@@ -5,6 +5,7 @@ use scene::{LightSpectrum, Scene};
 use sky::{Air, Sun, atmosphere};
 
 use super::heavens::{self, SKY};
+use super::interreflection;
 use super::maps::Maps;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
@@ -44,7 +45,7 @@ pub(super) fn sources(
     sources
 }
 
-/// The name of each of [`sources`] in their order, and whether it is a point that casts sharp shadows; no sky is
+/// The name of each of [`sources`] in their order, interreflected light after them, and whether it is a point that casts sharp shadows; no sky is
 /// built for it.
 pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)> {
     let sun = sun(scene, settings).map(|sun| (sun.name, sun.point.is_some() && scene.waters.is_empty()));
@@ -53,7 +54,8 @@ pub(crate) fn outline(scene: &Scene, settings: &Settings) -> Vec<(String, bool)>
     let dry = scene.waters.is_empty();
     let points = scene.lights.iter().map(|light| (light.name.clone(), dry));
     let areas = scene.area_lights.iter().map(|lamp| (lamp.name.clone(), false));
-    sun.into_iter().chain(sky).chain(points).chain(areas).collect()
+    let between = interreflection::asked(settings).then(|| (interreflection::NAME.to_owned(), false));
+    sun.into_iter().chain(sky).chain(points).chain(areas).chain(between).collect()
 }
 
 /// A lamp with an extent.

@@ -19,6 +19,11 @@ pub(super) fn shade_with(material: &Material, medium: Option<Medium>) -> Box<dyn
     }
 }
 
+/// The surface of a material that light does not pass; none of one that it does.
+pub(super) fn matt(material: &Material) -> Option<Surface> {
+    material.medium().is_none().then(|| Surface::new(finish(material)))
+}
+
 /// Whether a material is smooth enough for mirror rays, all or some of the way.
 pub(crate) fn mirrors(material: &Material) -> bool {
     let reflects = material.metallic > 0.0 || material.normal_reflectance().max_element() > 0.0;

@@ -1,14 +1,18 @@
 //! Plan and scene → pipeline: the only place that names chapters.
 
+mod banks;
 mod heavens;
+mod interreflection;
 mod lights;
 mod maps;
 mod materials;
+mod measuring;
 mod open_sky;
+mod qualities;
 mod solids;
 mod waters;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use light::{Bodies, First, Geometry, Nearest, Occlude, PointSource, Product, See, Shade, View};
 use raytrace::solid::{Acceleration, Solids};
@@ -20,6 +24,7 @@ use crate::Error;
 use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
+use interreflection::{Among, Linked};
 use waters::Waters;
 
 #[cfg(test)]
@@ -28,7 +33,9 @@ pub(crate) use heavens::{lacks, place_of_sun};
 pub(crate) use lights::outline;
 pub use maps::Maps;
 pub(crate) use materials::mirrors;
+pub use measuring::{Column, Measuring, Way};
 pub(crate) use open_sky::OpenSky;
+pub(crate) use qualities::{Optics, waters as water_names};
 
 /// Builds the stages that `plan` names for `scene`.
 ///
@@ -36,8 +43,9 @@ pub(crate) use open_sky::OpenSky;
 /// What only building can find: a solid that cannot be.
 pub fn assemble(plan: &Plan, scene: &Scene) -> Result<Pipeline, Error> {
     let standing = Standing::new(plan, scene)?;
-    let sources = standing.light(plan, scene, &mut Maps::default());
-    standing.pipeline(plan, scene, sources)
+    let mut sources = standing.light(plan, scene, &mut Maps::default());
+    sources.extend(standing.interreflected(plan, scene, &sources));
+    standing.pipeline(plan, scene, sources.into())
 }
 
 /// What neither a camera nor a sun that moves changes: who answers rays, and who shades.
@@ -46,6 +54,8 @@ pub struct Standing {
     occlude: Arc<Product>,
     shade: Arc<[Box<dyn Shade>]>,
     waters: Option<Waters>,
+    /// What faces see of each other, once that has been asked for.
+    linked: OnceLock<Linked>,
 }
 
 impl Standing {
@@ -68,17 +78,49 @@ impl Standing {
         }));
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
-        Ok(Self { traced, occlude, shade, waters })
+        Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new() })
     }
 
-    /// The scene's sources; `maps` have what is known of the sky's light, and keep what becomes known.
-    pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Arc<[Source]> {
+    /// What only building can find to be unusual, in words.
+    pub fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let flat = self.waters.as_ref().map(|waters| &**waters.flat());
+        banks::warnings(scene, flat.unwrap_or_default(), self.traced.first())
+    }
+
+    /// The scene's primary sources; `maps` have what is known of the sky's light, and keep what becomes known.
+    pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Vec<Source> {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
         let sources = lights::sources(scene, &plan.settings, bodies, maps).into_iter();
         match &self.waters {
-            Some(waters) => waters.lit_all(scene, &plan.settings, sources),
+            Some(waters) => sources.map(|source| waters.lit(scene, &plan.settings, source)).collect(),
             None => sources.collect(),
         }
+    }
+
+    /// The same by the ways that light takes past water.
+    fn light_by_ways(&self, plan: &Plan, scene: &Scene) -> Vec<(Source, Way)> {
+        let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);
+        let sources = lights::sources(scene, &plan.settings, bodies, &mut Maps::default()).into_iter();
+        match &self.waters {
+            Some(waters) => {
+                sources.flat_map(|source| waters.by_ways(scene, &plan.settings, source)).collect()
+            }
+            None => sources.map(|source| (source, Way::Direct)).collect(),
+        }
+    }
+
+    /// What faces send each other of the light of the primary `sources`, if that is asked for.
+    pub fn interreflected(&self, plan: &Plan, scene: &Scene, sources: &[Source]) -> Option<Source> {
+        let settings = &plan.settings;
+        interreflection::asked(settings).then(|| {
+            let among = Among {
+                nearest: self.traced.first(),
+                occlude: &*self.occlude,
+                waters: self.waters.as_ref().map(Waters::flat),
+            };
+            let linked = self.linked.get_or_init(|| Linked::new(scene, settings, among, sources));
+            linked.source(settings, sources, &*self.occlude)
+        })
     }
 
     /// All stages of one picture.
@@ -197,6 +239,14 @@ impl Traced {
         match &self.solids {
             Some([solids, _]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
             None => triangles,
+        }
+    }
+
+    /// What light between faces meets first: triangles alone, without water surfaces.
+    fn first(&self) -> &dyn Nearest {
+        match &self.shadow {
+            Triangles::Bvh(world) => &**world,
+            Triangles::Every(every) => &**every,
         }
     }
 

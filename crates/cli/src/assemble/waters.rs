@@ -2,14 +2,19 @@
 
 use std::sync::Arc;
 
-use light::{Geometry, Instance, PointSource, Shade, Spectrum, Traverse};
+use glam::DVec2;
+use light::{Geometry, Illuminate, Instance, PointSource, Shade, Traverse};
 use scene::Scene;
-use water::flat::{Along, Fill, FlatWater, Lit, Rules, Scattered, Source as Kind, SurfaceShade};
+use water::caustics::{Beams, Setting};
+use water::flat::{Along, Fill, FlatWater, Lit, Part, Rules, Scattered, Source as Kind, SurfaceShade};
 use water::scatter::LAMP_TOLERANCE;
-use water::{Paths, Tolerance, Water};
+use water::waves::{Stokes, WaveError, Waves, WavyShade, Wind};
+use water::{Paths, Tolerance};
 
 use super::heavens::SKY;
 use super::lights::{SUN, area};
+use super::measuring::Way;
+use super::qualities::of_scene as quality;
 use crate::Error;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
@@ -18,15 +23,32 @@ use crate::pipeline::Source;
 pub(super) struct Waters {
     waters: Arc<[FlatWater]>,
     rules: Rules,
+    /// On each of them.
+    waves: Vec<Arc<Waves>>,
+    /// How finely waves gather light; none = they do not.
+    beams: Option<Setting>,
 }
 
 impl Waters {
     /// # Errors
-    /// A water that there is not, with those that there are.
+    /// A water that there is not, with those that there are; waves that cannot be.
     pub(super) fn of(scene: &Scene, settings: &Settings) -> Result<Option<Self>, Error> {
         let flat = |water: &scene::Water| Ok(FlatWater::new(quality(water)?, &water.surface, &water.place));
         let waters = scene.waters.iter().map(flat).collect::<Result<Arc<[_]>, Error>>()?;
-        Ok((!waters.is_empty()).then_some(Self { waters, rules: rules(settings) }))
+        let waves = scene.waters.iter().map(|water| Ok(Arc::new(waves(water, scene)?)));
+        let waves = waves.collect::<Result<_, Error>>()?;
+        let beams = (settings.choice("water.caustics") == "beams").then(|| Setting {
+            cells: settings.number("water.caustics.cells"),
+            width: settings.number("water.caustics.width"),
+            disc: 0.0,
+        });
+        let rules = rules(settings);
+        Ok((!waters.is_empty()).then_some(Self { waters, rules, waves, beams }))
+    }
+
+    /// All of them.
+    pub(super) fn flat(&self) -> &Arc<[FlatWater]> {
+        &self.waters
     }
 
     /// The scene's geometry with the surfaces after it, whose materials begin with number `first`: what is seen, but hides
@@ -44,43 +66,73 @@ impl Waters {
 
     /// A shader for each surface.
     pub(super) fn shaders(&self) -> impl Iterator<Item = Box<dyn Shade>> {
-        (0..self.waters.len())
-            .map(|i| -> Box<dyn Shade> { Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)) })
+        self.waves.iter().enumerate().map(|(i, waves)| -> Box<dyn Shade> {
+            match waves.is_calm() {
+                true => Box::new(SurfaceShade::new(Arc::clone(&self.waters), i)),
+                false => Box::new(WavyShade::new(self.waters[i].surface, Arc::clone(waves))),
+            }
+        })
     }
 
     pub(super) fn fill(&self) -> Arc<dyn Traverse> {
         Arc::new(Fill::new(Arc::clone(&self.waters)))
     }
 
-    /// Sources as they arrive above and below; their shadows are no straight lines any more. Lamps with an extent are last, in the
-    /// scene's order.
-    pub(super) fn lit_all(
-        &self,
-        scene: &Scene,
-        settings: &Settings,
-        sources: impl ExactSizeIterator<Item = Source>,
-    ) -> Arc<[Source]> {
-        let points = sources.len() - scene.area_lights.len();
-        let lamp = |i: usize| i.checked_sub(points).and_then(|i| scene.area_lights.get(i));
-        let area = |i| lamp(i).map(|lamp| Kind::Area(area(lamp, settings)));
-        sources.enumerate().map(|(i, source)| self.lit(scene, source, area(i))).collect()
+    /// A source as it arrives above and below; its shadows are no straight lines any more.
+    pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
+        let Some(kind) = kind(scene, settings, &source) else { return source };
+        let light = self.bring(scene, (&source.name, kind), source.light.into(), Part::All);
+        Source { light, point: None, ..source }
     }
 
-    fn lit(&self, scene: &Scene, source: Source, area: Option<Kind>) -> Source {
-        let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
-        let point = source.point.and_then(|point| match point {
-            PointSource::Toward(toward) => Some(Kind::Toward(toward)),
-            PointSource::At(position) => Some(Kind::At(position)),
-            PointSource::Below { .. } => None,
-        });
-        let sky = (source.name == SKY).then_some(Kind::Around);
-        let Some(kind) = area.or(sun).or(point).or(sky) else { return source };
-        Source {
-            light: Box::new(Lit::new(source.light, kind, Arc::clone(&self.waters), self.rules)),
-            point: None,
-            ..source
+    /// A part of a source's light.
+    fn bring(
+        &self,
+        scene: &Scene,
+        (name, kind): (&str, Kind),
+        inner: Arc<dyn Illuminate>,
+        part: Part,
+    ) -> Box<dyn Illuminate> {
+        let waters = Arc::clone(&self.waters);
+        let wavy = self.waves.iter().any(|waves| !waves.is_calm());
+        match self.beams.filter(|_| kind != Kind::Around && wavy) {
+            Some(setting) => {
+                let sun = scene.sun.as_ref().filter(|_| name == SUN);
+                let disc = sun.map_or(0.0, |sun| 0.5 * sun.diameter.to_radians());
+                let how = (self.rules, Setting { disc, ..setting });
+                Box::new(Beams::new(inner, kind, waters, &self.waves, how).only(part))
+            }
+            None => Box::new(Lit::new(Box::new(inner), kind, waters, self.rules).only(part)),
         }
     }
+
+    /// The same by the ways that its light takes, which together are all of it.
+    pub(super) fn by_ways(&self, scene: &Scene, settings: &Settings, source: Source) -> Vec<(Source, Way)> {
+        let Some(kind) = kind(scene, settings, &source) else { return vec![(source, Way::Direct)] };
+        let inner: Arc<dyn Illuminate> = Arc::from(source.light);
+        let along = |(way, part): (Way, Part)| {
+            let light = self.bring(scene, (&source.name, kind), Arc::clone(&inner), part);
+            let name = source.name.clone();
+            (Source { name, light, beam: source.beam, point: None }, way)
+        };
+        let ways =
+            [(Way::Direct, Part::Direct), (Way::Reflected, Part::Reflected), (Way::Through, Part::Through)];
+        ways.into_iter().map(along).collect()
+    }
+}
+
+/// How its light finds its way through a surface; none of a source that is none of the scene's.
+fn kind(scene: &Scene, settings: &Settings, source: &Source) -> Option<Kind> {
+    let sun = scene.sun.as_ref().filter(|_| source.name == SUN).map(|sun| Kind::Toward(sun.toward));
+    let point = source.point.and_then(|point| match point {
+        PointSource::Toward(toward) => Some(Kind::Toward(toward)),
+        PointSource::At(position) => Some(Kind::At(position)),
+        PointSource::Below { .. } => None,
+    });
+    let sky = (source.name == SKY).then_some(Kind::Around);
+    let lamp = scene.area_lights.iter().find(|lamp| lamp.name == source.name);
+    let lamp = || lamp.map(|lamp| Kind::Area(area(lamp, settings)));
+    sun.or(point).or(sky).or_else(lamp)
 }
 
 fn rules(settings: &Settings) -> Rules {
@@ -106,19 +158,22 @@ fn rules(settings: &Settings) -> Rules {
     }
 }
 
-/// The water that absorbs and scatters nothing.
-const CLEAR: &str = "clear";
-
-fn quality(asked: &scene::Water) -> Result<Water, Error> {
-    let fault =
-        |error: &dyn std::fmt::Display| Error::Content(format!("[[water]] {:?}: {error}", asked.name));
-    let named = match asked.quality.as_str() {
-        CLEAR => {
-            Water::named("distilled").and_then(|water| Water::new(Spectrum::ZERO, Vec::new(), water.index()))
-        }
-        name => Water::named(name),
+/// The waves of a water, at its moment.
+fn waves(water: &scene::Water, scene: &Scene) -> Result<Waves, Error> {
+    let fault = |what: String, error: WaveError| {
+        Error::Content(format!("[[water]] {:?}, {what}: {error}", water.name))
     };
-    let named = named.map_err(|error| fault(&error))?;
-    let Some(index) = asked.index else { return Ok(named) };
-    Water::new(named.absorption(), named.scatterers().to_vec(), index).map_err(|error| fault(&error))
+    let given = water.waves.each.iter().enumerate().map(|(i, wave)| {
+        Stokes::new(wave.amplitude, wave.wavelength, wave.toward, wave.phase)
+            .map_err(|error| fault(format!("waves, number {}", i + 1), error))
+    });
+    let mut all = given.collect::<Result<Vec<_>, Error>>()?;
+    if let Some(wind) = &water.waves.wind {
+        let scene::Wind { speed, fetch, toward, depth, waves, seed } = *wind;
+        let wind = Wind { speed, fetch, toward, depth, waves: waves as usize };
+        all.extend(wind.raise(seed).map_err(|error| fault("wind".to_owned(), error))?);
+    }
+    // Phases count from where the file's coordinates do.
+    let origin = DVec2::new(-scene.origin.x, -scene.origin.z);
+    Ok(Waves::new(all, origin).at_moment(water.waves.moment))
 }

@@ -27,6 +27,7 @@
 //! have their v axis the wrong way round.
 
 mod albedo;
+mod even;
 mod finish;
 mod glass;
 mod lobe;

@@ -17,23 +17,23 @@ const ALL_MIRROR: f32 = 0.25;
 pub const NO_MIRROR: f32 = 0.4;
 
 /// A surface at one hit, its textures read.
-struct Local<'a> {
+pub(super) struct Local<'a> {
     normal: Vec3,
     out: Vec3,
     face: Vec3,
     /// cos between `normal` and `face`.
     agreement: f32,
-    roughness: f32,
+    pub(super) roughness: f32,
     facets: Facets,
-    at: Fraction,
+    pub(super) at: Fraction,
     ior: f32,
     /// Share of the area that is metal.
-    metallic: f32,
+    pub(super) metallic: f32,
     /// Head-on reflectance of the metal.
-    metal: Spectrum,
+    pub(super) metal: Spectrum,
     /// Reflectance below the boundary of the dielectric, share of the area and of transmission included.
-    body: Spectrum,
-    boundary: &'a Albedo,
+    pub(super) body: Spectrum,
+    pub(super) boundary: &'a Albedo,
     /// Factor on (1 − E(i)) for a matt scattering of reflectance 1 below the boundary: (1 − E(o))/(1 − Ē).
     below: f32,
     /// Factor on (1 − A(i)) for light passed among the metal's facets, per band: F_ms (1 − A(o))/(1 − Ā).
@@ -41,7 +41,7 @@ struct Local<'a> {
 }
 
 impl<'a> Local<'a> {
-    fn new(surface: &'a Surface, hit: &Hit) -> Self {
+    pub(super) fn new(surface: &'a Surface, hit: &Hit) -> Self {
         let finish = &surface.finish;
         let normal = shading_normal(hit, finish.normal_map.as_ref());
         let (metallic, roughness) = finish.metal_and_roughness_at(hit).into();
@@ -72,6 +72,11 @@ impl<'a> Local<'a> {
                 Spectrum::ZERO
             },
         }
+    }
+
+    /// [`Self::among`] for the mean over the eye's directions, that of (1 − A(o))/(1 − Ā) being 1.
+    pub(super) fn among_mean(&self) -> Spectrum {
+        passed_among(self.metal, Albedo::white().mean(self.at)) * self.metallic
     }
 
     /// Share of even light all around that is mirrored to the eye, E(o).
@@ -135,7 +140,7 @@ fn passed_among(head_on: Spectrum, mean: f32) -> Spectrum {
 }
 
 /// Share of the mirror ray in the specular reflection of extended light, by roughness.
-fn mirrored(roughness: f32) -> f32 {
+pub(super) fn mirrored(roughness: f32) -> f32 {
     let t = ((NO_MIRROR - roughness) / (NO_MIRROR - ALL_MIRROR)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -167,8 +172,8 @@ impl Surface {
         light * colour.map(|band| band.clamp(0.0, 1.0)) * share
     }
 
-    /// Emitted radiance.
-    fn emitted(&self, hit: &Hit) -> Spectrum {
+    /// Emitted radiance \[W m⁻² sr⁻¹ nm⁻¹\], the same in every direction.
+    pub fn emitted(&self, hit: &Hit) -> Spectrum {
         let rgb = self.finish.emission_at(hit);
         let largest = rgb.max_element();
         if largest > 0.0 && largest.is_finite() {

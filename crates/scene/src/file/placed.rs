@@ -189,18 +189,3 @@ pub(crate) struct ConeTable {
     /// Angle from the axis at which it has faded to 0 [°], within (inner, 90].
     pub(crate) outer: f64,
 }
-
-/// Water: everything below a level surface.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct WaterTable {
-    /// For messages. Default `water-1`, `water-2`, …
-    pub(crate) name: Option<String>,
-    /// The surface: level, its corners [m] in either order seen from above. Draw it a little into the banks.
-    pub(crate) polygon: PolygonTable,
-    /// Which water: `clear`, which absorbs and scatters nothing, or one by name such as `pool`, `sea` or `jerlov-3C`. Default `pool`.
-    pub(crate) quality: Option<String>,
-    /// Index of refraction relative to air. Default: the water's own.
-    #[schemars(range(min = 1.0, max = 2.0))]
-    pub(crate) index: Option<f64>,
-}

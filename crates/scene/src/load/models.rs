@@ -1,9 +1,10 @@
 //! Models: read once, placed as often as the file says.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use light::{Instance, Mesh};
 
 use super::draft::Draft;
@@ -12,6 +13,9 @@ use super::{inline, materials, placement, punctual};
 use crate::document::Spot;
 use crate::file::{MaterialTable, ModelTable};
 use crate::{Error, Material, gltf};
+
+/// How far corners of a water's surface may lie off its level \[m\]: what one writes with millimetres.
+pub(crate) const UNEVEN: f64 = 1e-3;
 
 /// Most placed meshes of a scene: 10⁸ of them take 11 GB.
 const MOST_INSTANCES: usize = 100_000_000;
@@ -23,9 +27,80 @@ pub(crate) struct Library(Vec<(PathBuf, BTreeMap<String, MaterialTable>, Shelved
 /// A model whose meshes and materials are in the scene already.
 struct Shelved {
     instances: Vec<Instance>,
+    /// The name of each one's node.
+    nodes: Vec<Arc<str>>,
     cameras: Vec<gltf::ModelCamera>,
     lights: Vec<gltf::PunctualLight>,
     path: PathBuf,
+}
+
+/// Faces of models that something else than the picture wants: surfaces of water.
+#[derive(Default)]
+pub(crate) struct Claims {
+    /// Who claims what.
+    pub(crate) of: Vec<Claim>,
+    /// What was found.
+    pub(crate) found: Vec<Found>,
+    /// Names of all nodes and of all materials, for messages; kept only if there are claims.
+    pub(crate) names: [BTreeSet<Arc<str>>; 2],
+}
+
+/// A water (its number from 0) and what is its surface, in a certain model or in any.
+pub(crate) struct Claim {
+    pub(crate) water: usize,
+    pub(crate) model: Option<String>,
+    pub(crate) wanted: Wanted,
+}
+
+/// Which faces.
+#[derive(PartialEq)]
+pub(crate) enum Wanted {
+    /// All of the node of this name.
+    Node(String),
+    /// Of the faces in the material of this name, those that lie level at the top.
+    Material(String),
+}
+
+/// A part of what is claimed.
+pub(crate) struct Found {
+    pub(crate) water: usize,
+    pub(crate) mesh: Mesh,
+    pub(crate) world_from_mesh: DAffine3,
+}
+
+impl Found {
+    /// The corners of its triangles in the coordinates of the scene file \[m\], three by three.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> {
+        let corner =
+            |i: &u32| self.world_from_mesh.transform_point3(self.mesh.positions[*i as usize].as_dvec3());
+        self.mesh.triangles.iter().flatten().map(corner)
+    }
+}
+
+impl Claims {
+    /// The claim on faces of this node in this material.
+    fn claim(&mut self, model: Option<&str>, node: &Arc<str>, material: &str) -> Option<&Claim> {
+        if !self.of.is_empty() {
+            self.names[0].insert(Arc::clone(node));
+            self.names[1].insert(material.into());
+        }
+        self.of.iter().find(|claim| {
+            let here = claim.model.as_deref().is_none_or(|asked| Some(asked) == model);
+            here && match &claim.wanted {
+                Wanted::Node(name) => *name == **node,
+                Wanted::Material(name) => name == material,
+            }
+        })
+    }
+}
+
+/// The faces of a placed mesh that lie level at its top, within `slack` \[m\], and the others.
+fn split_top(mesh: &Mesh, world_from_mesh: &DAffine3, slack: f64) -> [Mesh; 2] {
+    let height = |i: &u32| world_from_mesh.transform_point3(mesh.positions[*i as usize].as_dvec3()).y;
+    let top = mesh.triangles.iter().flatten().map(height).fold(f64::NEG_INFINITY, f64::max);
+    let (upper, lower) =
+        mesh.triangles.iter().partition(|corners| corners.iter().all(|i| top - height(i) <= slack));
+    [upper, lower].map(|triangles| Mesh { triangles, ..mesh.clone() })
 }
 
 /// Adds what one `[[model]]` table describes.
@@ -35,6 +110,7 @@ pub(crate) fn add(
     spot: &Spot<'_>,
     table: &ModelTable,
     names: &Names,
+    claims: &mut Claims,
 ) -> Result<(), Error> {
     spot.exactly_one(&[
         ("file", table.file.is_some()),
@@ -52,7 +128,7 @@ pub(crate) fn add(
         }
         let path = spot.file(name);
         let shelved = library.shelve(draft, spot, &path, &table.materials)?;
-        return place(draft, shelved, &placement);
+        return place(draft, shelved, &placement, (table.name.as_deref(), claims));
     }
     if !table.materials.is_empty() {
         let what = "is for model files; inline geometry has the key material, the name of a [[material]]";
@@ -72,7 +148,7 @@ pub(crate) fn add(
 /// Adds a whole model file as it is.
 pub(crate) fn add_file(draft: &mut Draft, path: &Path) -> Result<(), Error> {
     let shelved = shelve(draft, gltf::read(path)?, path);
-    place(draft, &shelved, &DAffine3::IDENTITY)
+    place(draft, &shelved, &DAffine3::IDENTITY, (None, &mut Claims::default()))
 }
 
 /// Index of the material that the key `material` of this table names.
@@ -157,17 +233,38 @@ fn shelve(draft: &mut Draft, model: gltf::Model, path: &Path) -> Shelved {
     draft.warnings.extend(model.warnings);
     let instances =
         model.instances.into_iter().map(|i| Instance { mesh: i.mesh + first_mesh, ..i }).collect();
-    Shelved { instances, cameras: model.cameras, lights: model.lights, path: path.to_path_buf() }
+    let (nodes, path) = (model.instance_names, path.to_path_buf());
+    Shelved { instances, nodes, cameras: model.cameras, lights: model.lights, path }
 }
 
 /// Places everything of a model.
-fn place(draft: &mut Draft, shelved: &Shelved, placement: &DAffine3) -> Result<(), Error> {
+fn place(
+    draft: &mut Draft,
+    shelved: &Shelved,
+    placement: &DAffine3,
+    (name, claims): (Option<&str>, &mut Claims),
+) -> Result<(), Error> {
     if draft.geometry.instances.len() + shelved.instances.len() > MOST_INSTANCES {
         let what = format!("with this model the scene has more than {MOST_INSTANCES} placed meshes");
         return Err(Error::File { path: shelved.path.clone(), place: String::new(), what });
     }
-    for instance in &shelved.instances {
-        draft.add_instance(instance.mesh, *placement * instance.world_from_mesh);
+    for (instance, node) in shelved.instances.iter().zip(&shelved.nodes) {
+        let world_from_mesh = *placement * instance.world_from_mesh;
+        let mesh = &draft.geometry.meshes[instance.mesh as usize];
+        let material = draft.materials.get(mesh.material as usize).map_or("", |material| &material.name);
+        let Some(claim) = claims.claim(name, node, material) else {
+            draft.add_instance(instance.mesh, world_from_mesh);
+            continue;
+        };
+        let water = claim.water;
+        let [taken, left] = match claim.wanted {
+            Wanted::Node(_) => [mesh.clone(), Mesh::default()],
+            Wanted::Material(_) => split_top(mesh, &world_from_mesh, UNEVEN),
+        };
+        if !left.triangles.is_empty() {
+            draft.add_mesh(left, world_from_mesh);
+        }
+        claims.found.push(Found { water, mesh: taken, world_from_mesh });
     }
     for camera in &shelved.cameras {
         draft.cameras.extend(punctual::camera(camera, placement, draft.cameras.len() + 1));

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::Warning;
 
 /// Layers of a picture beside those of the lamps: a lamp may not be called so.
-pub(crate) const LAYERS: [&str; 3] = ["emission", "sky", "sun"];
+pub(crate) const LAYERS: [&str; 4] = ["emission", "interreflected", "sky", "sun"];
 
 /// Changes that a warning shows.
 const SHOWN: usize = 4;

@@ -44,7 +44,7 @@ pub enum Part {
 
 impl Part {
     /// Whether this part belongs to what is asked for.
-    pub(super) fn has(self, part: Self) -> bool {
+    pub(crate) fn has(self, part: Self) -> bool {
         self == Self::All || self == part
     }
 }

@@ -41,6 +41,11 @@ impl FlatWater {
         }
     }
 
+    /// The rectangle about the outline: its corners of least and largest x and z \[m\].
+    pub fn extent(&self) -> [DVec2; 2] {
+        [self.low, self.high]
+    }
+
     /// Whether the vertical through x, z meets the surface; its rim belongs to it.
     pub fn covers(&self, at: DVec2) -> bool {
         let boxed = at.cmpge(self.low).all() && at.cmple(self.high).all();
@@ -50,6 +55,11 @@ impl FlatWater {
     /// How deep below the surface a point lies \[m\], negative above it; none beside the water.
     pub fn depth(&self, point: DVec3) -> Option<f64> {
         self.covers(DVec2::new(point.x, point.z)).then_some(self.surface.level - point.y)
+    }
+
+    /// The edges of the surface, x and z in the world \[m\], in no order.
+    pub fn outline(&self) -> &[[DVec2; 2]] {
+        &self.outline
     }
 
     /// A point of the surface's height in the middle of all of it.

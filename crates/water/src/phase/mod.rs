@@ -3,6 +3,7 @@
 //! p(θ) \[1/sr\] with ∫ p dω = 1 over the sphere, so that β(θ) = b p(θ) and b and β(90°) cannot contradict each other
 //! (appendix A of the thesis gives them apart, and its pool would scatter more than it attenuates).
 
+mod angles;
 mod fournier_forand;
 mod petzold;
 #[cfg(test)]
@@ -10,7 +11,9 @@ mod tests;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
+
+use angles::Angles;
 
 use crate::quadrature::{Tolerance, integrate};
 
@@ -50,6 +53,7 @@ enum Shape {
     BeardsleyZaneveld { forward: f64, backward: f64 },
     FournierForand { index: f64, slope: f64 },
     HenyeyGreenstein { mean_cosine: f64 },
+    Table(Arc<Angles>),
     Mixture(Vec<(f64, Phase)>),
 }
 
@@ -60,6 +64,12 @@ pub enum PhaseError {
     Range(&'static str, f64, f64, f64),
     /// The shares of a mixture are negative, not finite, or all zero.
     Shares,
+    /// A table has fewer than two rows.
+    Rows(usize),
+    /// Angles of a table do not rise within 0 to 180° at this row (counted from 1): the angle \[degrees\].
+    Angle(usize, f64),
+    /// A value of a table is not a number above 0: row (counted from 1) and value.
+    Value(usize, f64),
 }
 
 impl fmt::Display for PhaseError {
@@ -70,6 +80,16 @@ impl fmt::Display for PhaseError {
             }
             Self::Shares => {
                 write!(f, "the shares of a mixture must be 0 or more, and one of them more than 0")
+            }
+            Self::Rows(rows) => write!(f, "a table of scattering needs two rows or more, but has {rows}"),
+            Self::Angle(row, angle) => {
+                write!(
+                    f,
+                    "angles of a table of scattering must rise within 0 and 180°, but row {row} has {angle}°"
+                )
+            }
+            Self::Value(row, value) => {
+                write!(f, "scattering in row {row} is {value}, but must be a number above 0")
             }
         }
     }
@@ -143,6 +163,37 @@ impl Phase {
         Ok(Self::normalised(Shape::HenyeyGreenstein { mean_cosine }))
     }
 
+    /// Measured: rows of scattering angle \[degrees\], rising within 0 to 180, and p or β in any unit, above 0. Cubic in the
+    /// logarithms between the rows; below the first a power law that goes on as between the first two (no steeper than
+    /// θ^−1.9, which still has an integral), above the last constant.
+    ///
+    /// ```
+    /// use keikan_water::Phase;
+    /// let even = Phase::table(&[(0.0, 7.0), (180.0, 7.0)]).unwrap();
+    /// assert!((even.value(0.3) * 4.0 * std::f64::consts::PI - 1.0).abs() < 1e-9);
+    /// ```
+    pub fn table(rows: &[(f64, f64)]) -> Result<Self, PhaseError> {
+        let mut before = None;
+        for (row, &(angle, value)) in rows.iter().enumerate() {
+            // What is nearer to 0 than the peak's width is 0.
+            let rises = before.is_none_or(|before: f64| angle > before.max(2.0 * PEAK.to_degrees()));
+            if !(rises && (0.0..=180.0).contains(&angle)) {
+                return Err(PhaseError::Angle(row + 1, angle));
+            }
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(PhaseError::Value(row + 1, value));
+            }
+            before = Some(angle);
+        }
+        let [first, second, ..] = rows else { return Err(PhaseError::Rows(rows.len())) };
+        let ratio = |a: f64, b: f64| (b / a).ln();
+        let slope = match first.0 > 0.0 {
+            true => (ratio(first.1, second.1) / ratio(first.0, second.0)).clamp(-1.9, 1.9),
+            false => 0.0,
+        };
+        Ok(Self::normalised(Shape::Table(Arc::new(Angles::new(rows, slope)))))
+    }
+
     /// Several at once, each with its share of b; the shares need not sum to 1.
     pub fn mixture(parts: Vec<(f64, Self)>) -> Result<Self, PhaseError> {
         let whole: f64 = parts.iter().map(|part| part.0).sum();
@@ -196,7 +247,7 @@ impl Shape {
                 let cos = 1.0 - 2.0 * s;
                 1.0 + (1.0 - depolarisation) / (1.0 + depolarisation) * cos * cos
             }
-            Self::Petzold => petzold::at(s),
+            Self::Petzold => petzold::PETZOLD.at(s),
             Self::BeardsleyZaneveld { forward, backward } => {
                 let ahead = (1.0 - forward) + 2.0 * forward * s;
                 let behind = (1.0 + backward) - 2.0 * backward * s;
@@ -207,6 +258,7 @@ impl Shape {
                 let distance2 = (1.0 - g) * (1.0 - g) + 4.0 * g * s;
                 (1.0 - g) * (1.0 + g) / (4.0 * PI * distance2 * distance2.sqrt())
             }
+            Self::Table(ref table) => table.at(s),
             Self::Mixture(ref parts) => parts.iter().map(|(share, phase)| share * phase.at(s)).sum(),
         }
     }
@@ -227,14 +279,19 @@ impl Shape {
         // Within 1e-10 rad lie 3e-20 sr, and p < 1e9 for every function here.
         let mut front = vec![1e-10, PEAK, 1e-4];
         let mut back = vec![FRAC_PI_2];
-        match self {
-            Self::Petzold => {
-                front.extend(petzold::angles().filter(|angle| *angle < FRAC_PI_2 - 1e-9));
-                back.extend(
-                    petzold::angles().filter(|angle| *angle > FRAC_PI_2 + 1e-9 && *angle < PI - 1e-9),
-                );
+        let table = match self {
+            Self::Petzold => Some(&*petzold::PETZOLD),
+            Self::Table(table) => Some(&**table),
+            _ => None,
+        };
+        match table {
+            Some(table) => {
+                let angles = || table.angles().filter(|angle| *angle > PEAK * 1.01);
+                front.extend(angles().filter(|angle| *angle < FRAC_PI_2 - 1e-9));
+                back.extend(angles().filter(|angle| *angle > FRAC_PI_2 + 1e-9 && *angle < PI - 1e-9));
+                front.sort_by(f64::total_cmp);
             }
-            _ => front.extend([1e-3, 1e-2, 0.1, 0.5]),
+            None => front.extend([1e-3, 1e-2, 0.1, 0.5]),
         }
         front.push(FRAC_PI_2);
         back.push(PI);

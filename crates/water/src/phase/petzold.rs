@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::PEAK;
+use super::angles::Angles;
 
 /// Slope of ln p over ln θ below the first angle (Mobley 1994).
 const SLOPE: f64 = -1.346;
@@ -24,47 +24,5 @@ const TABLE: [(f64, f64); 55] = [
     (160.0, 0.002669), (165.0, 0.002843), (170.0, 0.003039), (175.0, 0.003101), (180.0, 0.003163),
 ];
 
-/// ln θ \[rad\], ln p and its slope at each angle: that of the parabola through it and its neighbours.
-static LOGARITHMS: LazyLock<[[f64; 3]; TABLE.len()]> = LazyLock::new(|| {
-    let logarithms = TABLE.map(|(angle, p)| [angle.to_radians().ln(), p.ln()]);
-    std::array::from_fn(|i| {
-        let [x, y] = logarithms[i];
-        let slope = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
-        let slope = match (i.checked_sub(1).map(|i| logarithms[i]), logarithms.get(i + 1)) {
-            (Some(a), Some(&b)) => {
-                let (before, after) = (x - a[0], b[0] - x);
-                (slope(a, [x, y]) * after + slope([x, y], b) * before) / (before + after)
-            }
-            (Some(a), None) => slope(a, [x, y]),
-            (None, _) => SLOPE,
-        };
-        [x, y, slope]
-    })
-});
-
-/// The angles of the table \[rad\], rising.
-pub(super) fn angles() -> impl Iterator<Item = f64> {
-    TABLE.iter().map(|row| row.0.to_radians())
-}
-
-/// The table at s = sin²(θ/2): cubic in the logarithms between its angles, with the slopes of [`LOGARITHMS`], so that integrals
-/// over angles meet no kinks.
-pub(super) fn at(s: f64) -> f64 {
-    let table = &*LOGARITHMS;
-    let angle = (2.0 * s.sqrt().asin()).max(PEAK).ln();
-    let after = table.partition_point(|row| row[0] <= angle);
-    let log = match (after.checked_sub(1).map(|i| table[i]), table.get(after)) {
-        (None, Some(first)) => first[1] + SLOPE * (angle - first[0]),
-        (Some([x, y, slope]), Some(b)) => {
-            let width = b[0] - x;
-            let t = (angle - x) / width;
-            // Hermite: the chord, and what the slopes at both ends differ from it.
-            let chord = b[1] - y;
-            let (start, end) = (slope * width - chord, chord - b[2] * width);
-            y + t * chord + t * (1.0 - t) * ((1.0 - t) * start + t * end)
-        }
-        (Some(last), None) => last[1],
-        (None, None) => f64::NEG_INFINITY,
-    };
-    log.exp()
-}
+/// The table, ready to be read.
+pub(super) static PETZOLD: LazyLock<Angles> = LazyLock::new(|| Angles::new(&TABLE, SLOPE));

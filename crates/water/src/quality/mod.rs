@@ -61,6 +61,9 @@ pub struct Water {
     index: f64,
 }
 
+/// Mean cosine of daylight under water: sun at 45°, or a sky.
+const DAYLIGHT: f64 = 0.86;
+
 /// Indices of refraction that a water may have, relative to air.
 const INDEX_RANGE: [f64; 2] = [1.0, 2.0];
 
@@ -131,6 +134,19 @@ impl Water {
     /// What R∞ makes of daylight is the colour of the water itself.
     pub fn deep_reflectance(&self) -> Spectrum {
         self.turned_back() * 0.33
+    }
+
+    /// The same over a diffuse bottom of reflectance `bottom`, `depth` ≥ 0 \[m\] below: R∞ + (ρ − R∞) e^(−2 K_d z) (Maritorena, Morel and
+    /// Gentili 1994), K_d that of daylight ([`Water::downward`] at 0.86); of light that crosses it once down, once up.
+    pub fn reflectance_over(&self, bottom: Spectrum, depth: f64) -> Spectrum {
+        let deep = self.deep_reflectance();
+        let there_and_back = (self.daylight() * 2.0).attenuate(depth.max(0.0) as f32);
+        deep + (bottom - deep) * there_and_back
+    }
+
+    /// K_d \[1/m\]: attenuation of daylight by depth, with a mean cosine of 0.86.
+    pub fn daylight(&self) -> Spectrum {
+        self.downward(DAYLIGHT) * (1.0 / DAYLIGHT) as f32
     }
 
     /// Volume scattering function β = Σ b p(θ) at the cosine of the scattering angle \[1/(m sr)\].

@@ -1,0 +1,104 @@
+//! The pipeline of `keikan lux`: a source for every way that light takes.
+
+use std::fmt;
+
+use scene::Scene;
+
+use super::{Maps, Standing};
+use crate::Error;
+use crate::pipeline::{Pipeline, Source};
+use crate::plan::Plan;
+
+/// How light gets from a source to a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Way {
+    /// Past no water surface and off no face.
+    Direct,
+    /// Off a water surface, from above or from below.
+    Reflected,
+    /// Through a water surface.
+    Through,
+    /// Off faces, diffusely.
+    Interreflected,
+}
+
+impl Way {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Direct, Self::Reflected, Self::Through, Self::Interreflected];
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Direct => "direct",
+            Self::Reflected => "reflected",
+            Self::Through => "through",
+            Self::Interreflected => "interreflected",
+        })
+    }
+}
+
+/// One source, or what of its light takes a certain way.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Column {
+    /// Its name.
+    pub source: String,
+    /// Which way.
+    pub way: Way,
+}
+
+/// What sensors are asked with.
+pub struct Measuring {
+    /// Its sources are the columns.
+    pub pipeline: Pipeline,
+    /// What they are.
+    pub columns: Vec<Column>,
+    /// Interreflected light by coarser patches, to see how far they leave it off.
+    pub coarser: Option<Source>,
+    /// What only building could find to be unusual, in words.
+    pub warnings: Vec<String>,
+}
+
+/// How many times fewer patches, or longer ones, the coarser ones are.
+const COARSER: [f64; 2] = [4.0, 2.0];
+
+impl Measuring {
+    /// For the sensors of `scene`.
+    ///
+    /// # Errors
+    /// As [`super::assemble`].
+    pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
+        let standing = Standing::new(plan, scene)?;
+        let warnings = standing.warnings(scene);
+        let whole = standing.light(plan, scene, &mut Maps::default());
+        let interreflected = standing.interreflected(plan, scene, &whole);
+        let coarser = match interreflected {
+            Some(_) => Standing::new(&coarser(plan)?, scene)?.interreflected(&coarser(plan)?, scene, &whole),
+            None => None,
+        };
+        let mut parts = standing.light_by_ways(plan, scene);
+        parts.extend(interreflected.map(|source| (source, Way::Interreflected)));
+        let (sources, columns): (Vec<_>, Vec<_>) = parts
+            .into_iter()
+            .map(|(source, way)| {
+                let column = Column { source: source.name.clone(), way };
+                (source, column)
+            })
+            .unzip();
+        Ok(Self { pipeline: standing.pipeline(plan, scene, sources.into())?, columns, coarser, warnings })
+    }
+}
+
+/// The plan with fewer patches.
+fn coarser(plan: &Plan) -> Result<Plan, Error> {
+    let mut settings = plan.settings.clone();
+    let [fewer, longer] = COARSER;
+    let most = (f64::from(settings.integer("interreflection.patches")) / fewer).max(16.0) as u32;
+    settings.set("interreflection.patches", &most.to_string(), "keikan lux")?;
+    if let Some(edge) = settings.own_or("interreflection.patch") {
+        let edge = (edge * longer).min(1e6);
+        settings.set("interreflection.patch", &edge.to_string(), "keikan lux")?;
+    }
+    Ok(Plan { settings, ..plan.clone() })
+}

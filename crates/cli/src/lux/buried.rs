@@ -1,0 +1,47 @@
+//! Sensors that seem to lie inside of things.
+
+use glam::Vec3;
+use light::{Nearest, Place, Ray};
+use scene::Scene;
+
+use super::{Table, place};
+
+/// Directions that are looked into.
+const DIRECTIONS: u32 = 32;
+
+/// A warning for each sensor with dark points around which there is nothing but the backs of faces: they seem to lie inside
+/// of a wall.
+pub fn buried(scene: &Scene, nearest: &dyn Nearest, table: &Table) -> Vec<String> {
+    let of = |sensor: &scene::Sensor| {
+        let dark = |point: usize| {
+            table.rows.iter().any(|row| row.sensor == sensor.name && row.point == point && row.total == 0.0)
+        };
+        let inside: Vec<usize> = (0..sensor.points.len())
+            .filter(|&point| dark(point))
+            .filter(|&point| {
+                is_inside(nearest, &place(sensor.points[point], sensor.normal.as_vec3(), point as u32))
+            })
+            .collect();
+        let first = inside.first()?;
+        let at = (sensor.points[*first] + scene.origin).to_array();
+        Some(format!(
+            "[[sensor]] {:?}: {} of its {} points (the first: number {first} at {at:?}) receive no light and see nothing but the \
+             backs of faces: they seem to lie inside a wall or a body",
+            sensor.name,
+            inside.len(),
+            sensor.points.len()
+        ))
+    };
+    scene.sensors.iter().filter_map(of).collect()
+}
+
+fn is_inside(nearest: &dyn Nearest, place: &Place) -> bool {
+    (0..DIRECTIONS).all(|i| {
+        // The golden spiral: even over the sphere.
+        let y = 1.0 - (2.0 * i as f32 + 1.0) / DIRECTIONS as f32;
+        let (sin, cos) = (i as f32 * 2.399_963_2).sin_cos();
+        let level = (1.0 - y * y).max(0.0).sqrt();
+        let ray = Ray::new(place.position, Vec3::new(level * cos, y, level * sin));
+        nearest.nearest(&ray).is_some_and(|hit| !hit.front)
+    })
+}
