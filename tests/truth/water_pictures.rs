@@ -45,9 +45,12 @@ fn the_sun_in_deep_water_and_a_shadow_in_it() {
         // A field of 0.2° and sums in f32.
         assert!((open[b] / expected[b] - 1.0).abs() < 1e-4, "{b}: {} {}", open[b], expected[b]);
     }
-    // A roof 1 m above the water, to x = h/tan 30° + 0.4: the surface is dark to x = 0.4, the ray below the eye to where its light comes in there.
+    // A roof 1 m above the water, to x = h/tan 30° + 0.4: the surface is dark to x = 0.4, the ray below the eye to where its light comes in there. The roof is black, as it is mirrored.
     let edge = 1.0 / f64::to_radians(30.0).tan() + 0.4 - 50.0;
-    let roof = format!("[[model]]\nplane = {{ size = [100, 100] }}\nposition = [{edge}, 1, 0]\n");
+    let roof = format!(
+        "[[material]]\nname = 'black'\ncolour = 0\n\
+        [[model]]\nplane = {{ size = [100, 100] }}\nmaterial = 'black'\nposition = [{edge}, 1, 0]\n"
+    );
     let shaded = nadir(0.5, &format!("{WATER}{roof}"), &single);
     let dark_to = 0.4 * cos / sin;
     for b in 0..8 {
@@ -173,8 +176,8 @@ fn shadows_of_a_garden_in_the_suns_light() {
         assert!(shaded > 10, "{shaded}: nothing was tested");
         // Four ends within a midpoint's half step, at a brightness of up to K L/(1 − e^(−K L)) ≈ 3 times the mean.
         assert!(worst[0] < 3e-3, "{}", worst[0]);
-        // What covers less than a sixteenth of a ray may be missed.
-        assert!(worst[1] < 0.19, "{}", worst[1]);
+        // What covers less than 1/32 of a ray may be missed, at that brightness.
+        assert!(worst[1] < 0.1, "{}", worst[1]);
     }
 }
 
@@ -223,8 +226,8 @@ fn shadows_of_a_garden_in_the_light_of_lamps() {
         }
         println!("lamp at {at}: worst error {:.4} with intervals, {:.4} by probes", worst[0], worst[1]);
         assert!(shaded > 10, "{shaded}: nothing was tested");
-        // A hundredth asked for, and what covers less than a sixteenth of a ray may be missed, near the lamp at twice its mean brightness.
-        assert!(worst.iter().all(|error| *error < 0.13), "{worst:?}");
+        // A hundredth asked for, and what covers less than 1/32 of a ray may be missed, near the lamp at twice its mean brightness.
+        assert!(worst.iter().all(|error| *error < 0.075), "{worst:?}");
     }
 }
 

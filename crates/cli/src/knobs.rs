@@ -264,19 +264,19 @@ pub const KNOBS: &[Knob] = &[
         name: "water.lamp-integral",
         domain: Domain::Choice(&["quadrature", "steps"]),
         presets: ["quadrature"; 3],
-        doc: "how a lamp's scattered light is summed up along a view ray: to a stated error, or by the thesis' steps (3.33 to 3.35), which have none",
+        doc: "how a lamp's scattered light is summed up along a view ray: to a stated error, or by the thesis' steps (3.33 to 3.35), which have none: at 0.1 m at most they ask 160 points and leave up to 2.6 % behind a shadow, where quadrature leaves 0.001 % with 109",
     },
     Knob {
         name: "water.lamp-tolerance",
         domain: Domain::Number(1e-6, 1.0),
         presets: ["1", "0.1", "0.001"],
-        doc: "error of a lamp's scattered light as a share of it, for each of its ways through the water; time hardly depends on it down to 0.01",
+        doc: "error of a lamp's scattered light as a share of it, for each of its ways and each stretch between shadows; an upper bound: 1, 0.1, 0.01 ask 94, 109, 124 points along a ray past a lamp under water behind a shadow, 45 in air, and leave less than 0.1 %; stretches shorter than 1/32 of the ray may be missed",
     },
     Knob {
         name: "water.lamp-step",
         domain: Domain::Number(0.001, 1000.0),
         presets: ["0.3", "0.1", "0.01"],
-        doc: "longest of the thesis' steps [m], the shortest a twentieth of it",
+        doc: "longest of the thesis' steps [m], the shortest a twentieth of it; 0.3, 0.1, 0.01 leave up to 2.9, 2.6, 0.3 % and ask 56, 160, 1500 points along 8 m",
     },
     Knob {
         name: "water.sky-rays",
@@ -287,8 +287,8 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "water.sky-shafts",
         domain: Domain::Integer(0, 4096),
-        presets: ["4", "12", "64"],
-        doc: "directions of the sky whose shadows along view rays under water are cut out of the light that it scatters; 0 = nothing hides it (thesis); time grows with it",
+        presets: ["4", "8", "64"],
+        doc: "directions of the sky whose shadows along view rays under water are cut out of the light that it scatters: 4, 8, 64 leave 4.8, 2.6, 0.4 % of the open ray's (rms, a third of the rays in the open), no steps, nothing where it is open; 0 = nothing hides it (thesis); time grows with it",
     },
     Knob {
         name: "interreflection",

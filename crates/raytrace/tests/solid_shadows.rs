@@ -70,6 +70,20 @@ fn source(index: u32) -> PointSource {
 }
 
 #[test]
+fn of_light_from_a_plane_bodies_tell_only_that_they_are_not_below_it() {
+    let ball = Body { node: at(Shape::Sphere, 1.0, DVec3::new(0.0, 3.0, 0.0)), medium: None };
+    let solids = Solids::new(vec![ball], 0).expect("a ball");
+    let (a, b) = (DVec3::new(-2.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 0.0));
+    let told = |level: f64| {
+        let mut out = Vec::new();
+        let told = solids.shadows(&PointSource::Below { toward: DVec3::Y, level }, a, b, &mut out);
+        assert!(out.is_empty());
+        told
+    };
+    assert!(told(1.9) && !told(2.1) && !told(9.0));
+}
+
+#[test]
 fn shadow_intervals_agree_with_rays() {
     let glass = Arc::new(Medium { index: 1.5, ..Medium::default() });
     for medium in [None, Some(glass)] {

@@ -8,19 +8,22 @@
 //! once ([`multiple`]). The thesis' own forms stay selectable where better ones are the default ([`Paths::Thesis`], [`Loss::Beam`],
 //! [`scatter::Steps`], the waters `thesis-…`).
 //!
-//! In a scene: what arrives at places above and under flat water from any source, with shadows on every leg ([`flat::Lit`], an
-//! [`light::Illuminate`]), what one sees of its surface ([`flat::SurfaceShade`], a [`light::Shade`]), and what is lost and
-//! added on the way under water ([`flat::Fill`], a [`light::Traverse`]).
+//! In a scene: what arrives at places above and under flat water from any source, by parts if wanted, with shadows on every leg, and what
+//! the water scatters of it towards the eye ([`flat::Lit`], an [`light::Illuminate`]); what one sees of its surface
+//! ([`flat::SurfaceShade`], a [`light::Shade`]), and what is lost and added on the way under water ([`flat::Fill`], a
+//! [`light::Traverse`]).
 //!
 //! **Leaves out.** Waves, and so caustics; interreflection; water that changes with depth;
-//! fluorescence, polarisation; one index of refraction serves all bands. [`flat`] asks an occluder on every leg; all else asks nobody what
-//! stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and [`ScatteredSky`] know no shadows.
+//! fluorescence, polarisation; one index of refraction serves all bands; the sky that a surface mirrors onto things. [`flat`] asks an
+//! occluder on every leg; all else asks nobody what stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and
+//! [`ScatteredSky`] know no shadows.
 //!
 //! **Known to be wrong.** K = a + b_b is the loss of a vertical beam scattered rarely: in coastal waters (ω0 from 0.8 to 0.95) it is
 //! 0.5 to 0.9 of the attenuation that Jerlov measured; [`Water::downward`] is nearer. Scattering once misses two fifths of the radiance at ω0 = 0.9;
-//! the factor of [`multiple`] makes that good within 6 % in deep water only, and not for luminaires. The sky's rays are
-//! 10° apart. [`flat`] has rules of its own, which are simpler and slower: eight points along each ray whatever the source, each of
-//! which asks 256 directions of the sky, and no factor for what is scattered more than once.
+//! the factor of [`multiple`] makes that good within 6 % in deep water, within 11 % over a black bottom, and not for luminaires. The sky's
+//! rays are 10° apart. In [`flat`] the sky's shadows are those of a few dozen directions; the sun that the water scatters is a
+//! point, and a lamp with an extent one in its middle; shadows in the light of lamps that comes by way of the surface are found by
+//! looking at 32 places of a view ray.
 //!
 //! ```
 //! use glam::DVec3;

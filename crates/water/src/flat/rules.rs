@@ -46,7 +46,7 @@ impl Default for Rules {
             scattered: Scattered::Often,
             along: Along::Quadrature(LAMP_TOLERANCE),
             window: 64,
-            shafts: 12,
+            shafts: 8,
         }
     }
 }

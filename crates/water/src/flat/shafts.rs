@@ -14,9 +14,17 @@ pub(super) struct Shaft {
     pub(super) share: Spectrum,
 }
 
-/// Places at which a ray is looked at where no occluder can tell intervals. What hides less than 1/16 of it may be missed.
-pub(super) const PROBES: u32 = 16;
-/// Halvings of the way between two of them that differ: ends of shadows are found to 1/16 · 2⁻¹⁰ of the ray, 6e-5.
+impl Shaft {
+    /// Whether it is all of a ray, and nothing is hidden from it.
+    pub(super) fn is_whole(&self, ray: &ViewRay) -> bool {
+        self.from <= 0.0 && self.to >= ray.length && self.share == Spectrum::ONE
+    }
+}
+
+/// Places at which a ray is looked at where no occluder can tell intervals. What hides less than 1/32 of it may be missed: 2.5 % of the
+/// ray's light at worst in `shadows_of_a_garden_…`, where 16 places miss 7 %.
+pub(super) const PROBES: u32 = 32;
+/// Halvings of the way between two of them that differ: ends of shadows are found to 1/32 · 2⁻¹⁰ of the ray, 3e-5.
 const HALVINGS: u32 = 10;
 /// Looks at a stretch that things partly let light through to.
 const VEILED: u32 = 4;

@@ -90,13 +90,18 @@ impl Glow {
     /// Radiance at the ray's origin \[W m⁻² sr⁻¹ nm⁻¹\].
     pub(super) fn radiance(&self, water: &FlatWater, ray: &ViewRay, occlude: &dyn Occlude) -> Spectrum {
         let scattering = self.table.scattering();
+        let shafts: Vec<_> = self.looks.iter().map(|(light, _)| light.shafts(water, ray, occlude)).collect();
+        let open = self.table.radiance(ray);
+        if shafts.iter().all(|shafts| matches!(shafts[..], [shaft] if shaft.is_whole(ray))) {
+            return open;
+        }
         let (mut all, mut seen) = (Spectrum::ZERO, Spectrum::ZERO);
-        for (light, sun) in &self.looks {
+        for ((_, sun), shafts) in self.looks.iter().zip(&shafts) {
             let whole = scattering.sun(sun, ray, &[[0.0, ray.length]]);
             all += whole;
-            seen += lit(scattering, sun, ray, (&light.shafts(water, ray, occlude), whole));
+            seen += lit(scattering, sun, ray, (shafts, whole));
         }
-        self.table.radiance(ray) * share(seen, all)
+        open * share(seen, all)
     }
 }
 
@@ -108,7 +113,7 @@ pub(super) fn lit(
     (shafts, whole): (&[Shaft], Spectrum),
 ) -> Spectrum {
     match shafts {
-        [Shaft { from, to, share }] if *from <= 0.0 && *to >= ray.length => whole * *share,
+        [shaft] if shaft.is_whole(ray) => whole,
         _ => shafts.iter().map(|s| scattering.sun(sun, ray, &[[s.from, s.to]]) * s.share).sum(),
     }
 }
