@@ -15,3 +15,4 @@ mod open_sky;
 mod photometry;
 mod table_2_1;
 mod water;
+mod waves;
