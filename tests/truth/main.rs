@@ -16,3 +16,4 @@ mod photometry;
 mod table_2_1;
 mod water;
 mod water_pictures;
+mod waves;

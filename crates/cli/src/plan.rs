@@ -290,11 +290,8 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
         Rule::Volumes => stage("occlude", &format!("volumes ({faces})"), shadows.to_string()),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
-    stages.push(match scene.waters.len() {
-        0 => stage("all three", "", "no water: the scene has no [[water]]".to_owned()),
-        1 => stage("all three", "flat water", "1 in the scene".to_owned()),
-        n => stage("all three", "flat water", format!("{n} in the scene")),
-    });
+    let (model, why) = waters(scene, settings);
+    stages.push(stage("all three", model, why));
     stages.push(stage("all three", "", "no trees: the scene has no [[tree]]".to_owned()));
     stages
 }
@@ -346,5 +343,21 @@ impl fmt::Display for Plan {
             writeln!(f, "  {:<25} may be {}", "", knob.domain)?;
         }
         Ok(())
+    }
+}
+
+/// What is done about water and about its waves, and why.
+fn waters(scene: &Scene, settings: &Settings) -> (&'static str, String) {
+    let wavy = scene.waters.iter().filter(|water| !water.waves.is_calm()).count();
+    match (scene.waters.len(), wavy) {
+        (0, _) => ("", "no water: the scene has no [[water]]".to_owned()),
+        (n, 0) => ("flat water", format!("{n} in the scene")),
+        (n, wavy) => {
+            let caustics = match settings.choice("water.caustics") {
+                "beams" => "gather the light of what shines on them",
+                _ => "do nothing to light, only to what is seen (water.caustics = off)",
+            };
+            ("water", format!("{n} in the scene; waves on {wavy}, which {caustics}"))
+        }
     }
 }

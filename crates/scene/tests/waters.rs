@@ -155,3 +155,57 @@ fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
         assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{text}: {message}");
     }
 }
+
+const SQUARE: &str =
+    "[[water]]\nname = 'pond'\npolygon = { points = [[0, 0, 0], [0, 0, 4], [4, 0, 4], [4, 0, 0]] }\n";
+
+#[test]
+fn waves_run_where_they_are_sent_and_winds_come_from_where_they_blow() {
+    let text = format!(
+        "[site]\nlatitude = 0\nlongitude = 0\nnorth = 30\n{SQUARE}moment = 2.5\nwaves = [{{ amplitude = 0.1, wavelength = 3, direction = 60, phase = 90 }}]\n\
+         wind = {{ speed = 5, fetch = 300, direction = 60, depth = 2 }}\n"
+    );
+    let water = read(&text).unwrap().waters[0].clone();
+    let [wave] = water.waves.each[..] else { panic!("{:?}", water.waves) };
+    let wind = water.waves.wind.unwrap();
+    // North is 30° clockwise of −z: 60° from it is +x.
+    assert!(
+        (wave.toward - glam::DVec2::X).length() < 1e-15 && (wind.toward + glam::DVec2::X).length() < 1e-15
+    );
+    assert!((wave.phase - std::f64::consts::FRAC_PI_2).abs() < 1e-15 && water.waves.moment == 2.5);
+    assert_eq!((wind.depth, wind.waves), (Some(2.0), 48));
+    // Another name, another sea; the same one, the same.
+    let seed = |text: &str| read(text).unwrap().waters[0].waves.wind.unwrap().seed;
+    assert_eq!(seed(&text), wind.seed);
+    assert_ne!(seed(&text.replace("pond", "lake")), wind.seed);
+    assert_eq!(seed(&text.replace("depth = 2", "seed = 7")), 7);
+    assert!(read(SQUARE).unwrap().waters[0].waves.is_calm());
+}
+
+#[test]
+fn waves_that_are_none_are_named() {
+    for (waves, expected) in [
+        (
+            "waves = [{ amplitude = -0.1, wavelength = 1 }]",
+            "waves.1.amplitude\": -0.1 is not within [0, 100] m",
+        ),
+        (
+            "waves = [{ amplitude = 0.1, wavelength = 0 }]",
+            "waves.1.wavelength\": 0 is not within (0, 1000000] m",
+        ),
+        ("waves = [{ amplitude = 0.1, wavelength = nan }]", "wavelength"),
+        ("waves = [{ amplitude = 0.1, wavelength = 1, direction = 400 }]", "[-360, 360] degrees"),
+        ("waves = [{ amplitude = 0.1 }]", "wavelength"),
+        ("waves = [{ amplitude = 0.1, wavelength = 1, speed = 3 }]", "speed"),
+        ("wind = { speed = 0, fetch = 100 }", "wind.speed\": 0 is not within (0, 100] m/s"),
+        ("wind = { speed = 5, fetch = -1 }", "wind.fetch"),
+        ("wind = { speed = 5, fetch = 100, depth = 0 }", "wind.depth"),
+        ("wind = { speed = 5, fetch = 100, waves = 5000 }", "wind.waves\": 5000 is not within [1, 1024]"),
+        ("wind = { fetch = 100 }", "speed"),
+        ("moment = inf", "moment"),
+    ] {
+        let message =
+            read(&format!("{SQUARE}{waves}\n")).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{waves}: {message}");
+    }
+}

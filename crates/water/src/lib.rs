@@ -1,4 +1,4 @@
-//! Light in, through and off water: the physics of a horizontal surface and of the homogeneous water below it.
+//! Light in, through and off water: the physics of a horizontal or wavy surface and of the homogeneous water below it.
 //!
 //! **Answers.** What a water does to light ([`Water`]: by name, by measured coefficients, by chlorophyll or Secchi depth) and where
 //! it scatters it ([`Phase`]). By which ways light of a point source gets to a point ([`Surface::legs`]: straight, off the surface from
@@ -11,9 +11,10 @@
 //! In a scene: what arrives at places above and under flat water from any source, by parts if wanted, with shadows on every leg, and what
 //! the water scatters of it towards the eye ([`flat::Lit`], an [`light::Illuminate`]); what one sees of its surface
 //! ([`flat::SurfaceShade`], a [`light::Shade`]), and what is lost and added on the way under water ([`flat::Fill`], a
-//! [`light::Traverse`]).
+//! [`light::Traverse`]). With waves on it ([`waves`]): what one sees of them ([`waves::WavyShade`]), and the light that they gather
+//! ([`caustics::Beams`]).
 //!
-//! **Leaves out.** Waves, and so caustics; interreflection; water that changes with depth;
+//! **Leaves out.** Waves for the light of the sky and of lamps under water; interreflection; water that changes with depth;
 //! fluorescence, polarisation; one index of refraction serves all bands; the sky that a surface mirrors onto things. [`flat`] asks an
 //! occluder on every leg; all else asks nobody what stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and
 //! [`ScatteredSky`] know no shadows.

@@ -60,7 +60,7 @@ fn cut(corners: &mut [DVec2; CORNERS], count: usize, normal: DVec2, limit: f64) 
     left
 }
 
-/// The share of ten points (middles of nine parts' lattice: barycentric thirds) that lie in the square, whose far edges do not belong to it.
+/// The share of ten points, spread evenly over the triangle, that lie in the square, whose far edges do not belong to it.
 fn of_points([a, b, c]: [DVec2; 3], half: f64) -> f64 {
     let mut inside = 0u32;
     for i in 0..4u32 {

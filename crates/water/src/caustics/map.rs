@@ -211,7 +211,8 @@ impl Turn {
         let lost = Ray { height: facet.height as f32, lean: [0.0; 2], share: -1.0 };
         let down = self.from_above == (self.way == Way::Refracted);
         let drop = if down { -left.y } else { left.y };
-        if !(drop * LEANEST > DVec2::new(left.x, left.z).length()) {
+        let steep_enough = drop * LEANEST > DVec2::new(left.x, left.z).length();
+        if !steep_enough {
             return lost;
         }
         Ray { lean: [(left.x / drop) as f32, (left.z / drop) as f32], share: share as f32, ..lost }

@@ -57,7 +57,7 @@ impl Leg {
     }
 }
 
-/// The horizontal surface that light meets: waves are for view rays only.
+/// The horizontal surface that light meets; for waves see [`crate::caustics`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Height y of the surface \[m\].

@@ -179,7 +179,7 @@ fn glints(hit: &Hit, (facet, mean): (&Facet, DVec3), eta: f64, around: &dyn Surr
 /// Density of a normal distribution with this covariance about 0; 0 where it has no extent.
 fn density(spread: &Covariance, at: DVec2) -> f64 {
     let det = spread.xx * spread.zz - spread.xz * spread.xz;
-    if !(det > 1e-18) {
+    if det.is_nan() || det <= 1e-18 {
         return 0.0;
     }
     let inverse = Covariance { xx: spread.zz / det, xz: -spread.xz / det, zz: spread.xx / det };
