@@ -130,7 +130,8 @@ impl Studio {
             _ => {
                 let mut sources = seconds.time("light", || standing.light(plan, scene, &mut self.maps));
                 if plan.settings.choice("interreflection") != "off" {
-                    let more = seconds.time("interreflection", || standing.interreflected(plan, scene, &sources));
+                    let more =
+                        seconds.time("interreflection", || standing.interreflected(plan, scene, &sources));
                     sources.extend(more);
                 }
                 Lit { clock: spec.clock, sources: sources.into() }

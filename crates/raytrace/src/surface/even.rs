@@ -68,9 +68,22 @@ mod tests {
 
     #[test]
     fn it_is_the_mean_of_what_eyes_all_around_see() {
-        let finishes = [[0.0, 1.0, 1.0], [0.0, 1.0, 1.5], [0.0, 0.3, 1.5], [0.0, 0.1, 1.5], [1.0, 0.6, 1.5], [0.4, 0.35, 1.8]];
+        let finishes = [
+            [0.0, 1.0, 1.0],
+            [0.0, 1.0, 1.5],
+            [0.0, 0.3, 1.5],
+            [0.0, 0.1, 1.5],
+            [1.0, 0.6, 1.5],
+            [0.4, 0.35, 1.8],
+        ];
         for [metallic, roughness, ior] in finishes {
-            let surface = Surface::new(Finish { base_colour: Vec3::splat(0.6), metallic, roughness, ior, ..Finish::default() });
+            let surface = Surface::new(Finish {
+                base_colour: Vec3::splat(0.6),
+                metallic,
+                roughness,
+                ior,
+                ..Finish::default()
+            });
             // ∫ L cos dω = 2π ∫ L c dc, by midpoints; turning about the normal changes nothing.
             let steps = 4000;
             let sum = (0..steps).fold(0.0, |sum, i| {

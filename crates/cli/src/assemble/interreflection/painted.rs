@@ -33,7 +33,8 @@ impl Painted<'_> {
         let world = self.geometry.triangle(patch.face[0], patch.face[1]);
         let toward = Ray::new(glam::Vec3::ZERO, -patch.normal().as_vec3());
         let width = (patch.area() / 3.0).sqrt() as f32;
-        let opacity = &self.geometry.meshes[self.geometry.instances[patch.face[0] as usize].mesh as usize].opacity;
+        let opacity =
+            &self.geometry.meshes[self.geometry.instances[patch.face[0] as usize].mesh as usize].opacity;
         let mut sum = Spectrum::ZERO;
         for k in 0..3 {
             // Inner points of a rule of the second degree.

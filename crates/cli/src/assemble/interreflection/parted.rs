@@ -86,8 +86,8 @@ impl Level {
 
     /// Whether it cuts a thing of these corners.
     fn cuts(&self, corners: impl Iterator<Item = DVec3>) -> bool {
-        let (low, high) = corners
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) =
+            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         low.y < self.y - NEAR
             && high.y > self.y + NEAR
             && DVec2::new(low.x, low.z).cmple(self.high).all()
@@ -97,9 +97,7 @@ impl Level {
 
 /// The mesh with its triangles cut, and where the pieces of each begin; none where nothing is to be cut.
 fn parted(mesh: &Mesh, world_from_mesh: &DAffine3, levels: &[Level]) -> Option<(Mesh, Vec<u32>)> {
-    let world = |mesh: &Mesh, i: u32| {
-        world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3())
-    };
+    let world = |mesh: &Mesh, i: u32| world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());
     let corners = || (0..mesh.positions.len() as u32).map(|i| world(mesh, i));
     let levels: Vec<&Level> = levels.iter().filter(|level| level.cuts(corners())).collect();
     if levels.is_empty() {
