@@ -203,7 +203,7 @@ fn floor_and_underside_of_a_pool_send_light_back_and_forth() {
             diameter = 0
             [settings]
             interreflection = "patches"
-            "interreflection.patches" = 200
+            "interreflection.patches" = 70
             "interreflection.rays" = 64
             [[material]]
             name = "floor"

@@ -97,7 +97,7 @@ impl<'a> Facing<'a> {
     }
 
     /// Between two elements as large as the triangles.
-    fn from_middles(&self, at: DVec3) -> f64 {
+    fn between_middles(&self, at: DVec3) -> f64 {
         let way = triangle::centre(self.to) - at;
         let square = way.length_squared();
         let cosines = way.dot(self.normal).max(0.0) * (-way.dot(self.across)).max(0.0) * 0.5;
@@ -191,7 +191,7 @@ impl Through {
 pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, tolerance: f64) -> f64 {
     let facing = Facing::new(from, to);
     if gap > FARTHEST {
-        return facing.from_middles(triangle::centre(from));
+        return facing.between_middles(triangle::centre(from));
     }
     let is_whole = from.iter().all(|&corner| (corner - to[0]).dot(facing.across) >= 0.0);
     if !is_whole {

@@ -7,7 +7,7 @@
 //!
 //! **How.** Faces are halved into patches no larger than asked for ([`Cut`]). Every patch gathers from parts of the scene that
 //! are as large as they may be ([`Linking`]): halves of faces by exact form factors, groups of small faces far away as points.
-//! What is in the way is tried along some ways that belong to the pair. The shares are then balanced, so that light is neither
+//! What is in the way is tried along some ways that belong to the pair, unless surely nothing is ([`Obstacles`]). The shares are then balanced, so that light is neither
 //! made nor lost on the way ([`Links`]). Light goes round as often as [`Orders`] says.
 //!
 //! *One convention:* F_ij = 1/(π A_i) ∫∫ cos θ_i cos θ_j / r² V dA_j dA_i is the share of what leaves i that arrives at j.
