@@ -290,14 +290,18 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
         Rule::Volumes => stage("occlude", &format!("volumes ({faces})"), shadows.to_string()),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
-    stages.push(match scene.waters.len() {
-        0 => stage("all three", "", "no water: the scene has no [[water]]".to_owned()),
-        1 => stage("all three", "flat water", "1 in the scene".to_owned()),
-        n => stage("all three", "flat water", format!("{n} in the scene")),
-    });
     let trees = stage("all three", "", "no trees: the scene has no [[tree]]".to_owned());
-    stages.extend([between(settings), trees]);
+    stages.extend([waters(scene), between(settings), trees]);
     stages
+}
+
+/// What water does.
+fn waters(scene: &Scene) -> Stage {
+    let (answer, why) = match scene.waters.len() {
+        0 => ("", "no water: the scene has no [[water]]".to_owned()),
+        n => ("flat water", format!("{n} in the scene")),
+    };
+    Stage { question: "all three", answer: answer.to_owned(), why }
 }
 
 /// Who lights from face to face.
