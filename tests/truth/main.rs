@@ -9,6 +9,7 @@ mod cut_faces;
 mod determinism;
 mod furnace;
 mod furnace_solids;
+mod interreflection;
 mod luminaires;
 mod night;
 mod open_sky;

@@ -291,9 +291,25 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
     let (model, why) = waters(scene, settings);
-    stages.push(stage("all three", model, why));
-    stages.push(stage("all three", "", "no trees: the scene has no [[tree]]".to_owned()));
+    let trees = stage("all three", "", "no trees: the scene has no [[tree]]".to_owned());
+    stages.extend([stage("all three", model, why), between(settings), trees]);
     stages
+}
+
+/// Who lights from face to face.
+fn between(settings: &Settings) -> Stage {
+    let (answer, why) = match settings.choice("interreflection") {
+        "off" => (String::new(), "no interreflected light: interreflection = off".to_owned()),
+        by => {
+            let orders = match settings.integer("interreflection.orders") {
+                0 => "until it is used up".to_owned(),
+                count => format!("{count} diffuse reflections"),
+            };
+            let most = settings.choice("interreflection.patches");
+            (format!("interreflected ({by})"), format!("{orders}, between up to {most} patches"))
+        }
+    };
+    Stage { question: "illuminate", answer, why }
 }
 
 /// Who lights from lamps.

@@ -1,11 +1,13 @@
 //! Seconds, links and memory for ever more patches in a room with boxes, and what the links leave.
 //!
-//! `cargo run --release -p keikan-radiosity --example scaling`
+//! `cargo run --release -p keikan-radiosity --example scaling [LEAST EDGE, default 0.12 m]`
 
 use std::time::Instant;
 
 use glam::{DAffine3, DVec3, Vec3};
-use keikan_radiosity::{Between, Cut, Linking, Links, Orders, Patch, Patches, Side, Source, Surfaces, solve};
+use keikan_radiosity::{
+    Between, Cut, Linking, Links, Obstacles, Orders, Patch, Patches, Side, Source, Surfaces, solve,
+};
 use light::{Geometry, Instance, Mesh, Occlude, Ray, Spectrum};
 
 const SIZE: Vec3 = Vec3::new(8.0, 3.0, 6.0);
@@ -18,10 +20,13 @@ fn main() {
     let placed = |mesh| Instance { mesh, world_from_mesh: DAffine3::IDENTITY };
     let instances = (0..meshes.len() as u32).map(placed).collect();
     let geometry = Geometry { meshes, instances };
+    let obstacles = Obstacles::new(&geometry);
+    let between = Between { obstacles: Some(&obstacles), ..Between::dry(&boxes) };
     println!(
         "patches  share rays | links  MB | link s  solve s (3 orders) | closure mean, least | E/(Φ/S(1−ρ)) converged"
     );
-    for edge in [1.1, 0.38, 0.12] {
+    let least = std::env::args().nth(1).and_then(|edge| edge.parse().ok()).unwrap_or(0.0);
+    for edge in [1.1, 0.38, 0.12].into_iter().filter(|edge| *edge >= least) {
         let patches = Patches::new(&geometry, &Inside, &Cut { edge, ..Cut::default() });
         for share in [0.1, 0.05, 0.02] {
             if edge < 0.2 && share < 0.05 {
@@ -29,7 +34,7 @@ fn main() {
             }
             let linking = Linking { share, ..Linking::default() };
             let start = Instant::now();
-            let links = Links::new(&patches, &Between::dry(&boxes), &linking);
+            let links = Links::new(&patches, &between, &linking);
             let linked = start.elapsed().as_secs_f64();
             let lit = |patch: Patch| {
                 patch.centre().y > 2.999 && patch.centre().distance(DVec3::new(2.0, 3.0, 2.0)) < 1.0

@@ -1,5 +1,7 @@
 //! Factors that put the balance of light right.
 
+use rayon::prelude::*;
+
 use crate::{Links, Patches};
 
 /// By patch, what its light is multiplied with when it is sent, and when it is received.
@@ -13,6 +15,9 @@ const ROUNDS: usize = 50;
 
 /// The iteration ends when no sum is off by more: ten roundings of f32.
 const ENOUGH: f64 = 1e-6;
+
+/// Parts in which sums over links are made side by side.
+const PARTS: usize = 16;
 
 impl Balance {
     pub(crate) fn none(patches: usize) -> Self {
@@ -75,19 +80,30 @@ fn received(patches: &Patches, links: &Links, weights: &[f64]) -> Vec<f64> {
         let mine = &links.links[links.starts[patch]..links.starts[patch + 1]];
         mine.iter().map(|link| links.largest(link) * means[link.source as usize]).sum()
     };
-    (0..patches.len()).map(sum).collect()
+    (0..patches.len()).into_par_iter().with_min_len(64).map(sum).collect()
 }
 
 /// By patch: Σ_i A_i u_i F_ij / A_j, where what a node sends is sent by all of its patches alike.
 fn sent(patches: &Patches, links: &Links, weights: &[f64]) -> Vec<f64> {
     let nodes = &patches.tree.nodes;
-    let mut sums = vec![0.0; nodes.len()];
-    for (patch, weight) in weights.iter().enumerate() {
-        let flux = patches.node(patch).area * weight;
-        for link in &links.links[links.starts[patch]..links.starts[patch + 1]] {
-            sums[link.source as usize] += flux * links.largest(link) / nodes[link.source as usize].area;
+    let part = |mine: std::ops::Range<usize>| {
+        let mut sums = vec![0.0; nodes.len()];
+        for patch in mine {
+            let flux = patches.node(patch).area * weights[patch];
+            for link in &links.links[links.starts[patch]..links.starts[patch + 1]] {
+                sums[link.source as usize] += flux * links.largest(link);
+            }
         }
-    }
+        sums
+    };
+    // As many parts whatever the threads are, summed in order: the same bits.
+    let size = weights.len().div_ceil(PARTS).max(1);
+    let parts: Vec<Vec<f64>> = (0..PARTS)
+        .into_par_iter()
+        .map(|k| part((k * size).min(weights.len())..((k + 1) * size).min(weights.len())))
+        .collect();
+    let total = |node: usize| parts.iter().map(|sums| sums[node]).sum::<f64>() / nodes[node].area;
+    let mut sums: Vec<f64> = (0..nodes.len()).map(total).collect();
     for (k, node) in nodes.iter().enumerate() {
         for child in node.children.into_iter().flatten() {
             sums[child as usize] += sums[k];

@@ -1,10 +1,12 @@
 //! What lies between two points that light each other: things, a medium, and mirrors beside the straight way.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::DVec3;
-use light::{Occlude, Place, Spectrum, sampling};
+use light::{Occlude, Place, Spectrum, Vacuum, sampling};
 
+use crate::obstacles::Obstacles;
 use crate::patch::{place, reach};
 use crate::tree::{Node, Tree};
 
@@ -14,6 +16,12 @@ use crate::tree::{Node, Tree};
 pub trait Attenuate: Send + Sync {
     /// The share that is left between two points \[m\].
     fn factor(&self, from: DVec3, to: DVec3) -> Spectrum;
+
+    /// Whether surely nothing is lost between any two points of the box from `low` to `high` \[m\].
+    fn is_clear(&self, low: DVec3, high: DVec3) -> bool {
+        let _ = (low, high);
+        false
+    }
 }
 
 /// No medium: the null answer.
@@ -23,6 +31,10 @@ pub struct Clear;
 impl Attenuate for Clear {
     fn factor(&self, _: DVec3, _: DVec3) -> Spectrum {
         Spectrum::ONE
+    }
+
+    fn is_clear(&self, _: DVec3, _: DVec3) -> bool {
+        true
     }
 }
 
@@ -63,12 +75,14 @@ pub struct Between<'a> {
     pub attenuate: &'a dyn Attenuate,
     /// Mirrors; most often none.
     pub mirrors: &'a [Arc<dyn Mirror>],
+    /// All that may be in the way, to tell where nothing is without asking `occlude`; none = always ask.
+    pub obstacles: Option<&'a Obstacles>,
 }
 
 impl<'a> Between<'a> {
     /// Things in the way, no medium and no mirror.
     pub fn dry(occlude: &'a dyn Occlude) -> Self {
-        Self { occlude, attenuate: &Clear, mirrors: &[] }
+        Self { occlude, attenuate: &Clear, mirrors: &[], obstacles: None }
     }
 
     /// The share of light that one straight leg leaves.
@@ -100,28 +114,83 @@ impl<'a> Between<'a> {
         reflected * self.leg(from, folded) * self.leg(to, folded)
     }
 
+    /// The same without things in the way, where surely none is between two nodes; all of it, if nothing else is there either.
+    pub(crate) fn cleared(&self, nodes: [&Node; 2], mirror: Option<&dyn Mirror>) -> Cleared<'a> {
+        let Some(obstacles) = self.obstacles else { return Cleared::No };
+        let mut hull = [DVec3::ZERO; 2 * 2 * 8];
+        let mut count = 0;
+        for node in nodes {
+            count += node.corners_of_hull(&mut hull[count..]);
+        }
+        if let Some(mirror) = mirror {
+            // Legs end between the feet of what they join.
+            let (point, normal) = mirror.plane();
+            for k in 0..count {
+                hull[count + k] = hull[k] - normal * (hull[k] - point).dot(normal);
+            }
+            count *= 2;
+        }
+        let hull = &hull[..count];
+        let tube =
+            mirror.is_none().then(|| (nodes.map(|node| node.centre), nodes[0].radius.max(nodes[1].radius)));
+        if !obstacles.is_clear(hull, tube) {
+            return Cleared::No;
+        }
+        let (low, high) = hull
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+        if mirror.is_none() && self.attenuate.is_clear(low, high) {
+            return Cleared::All;
+        }
+        Cleared::OfThings(Self { occlude: &Vacuum, ..*self })
+    }
+
     /// The mean of that over `count` ways between two nodes, weighed with what each would carry; the second of the pair is the
     /// node itself, not its image. Ways from number `first` on, of those that belong to the pair.
     pub(crate) fn ways(&self, pair: &Pair, first: u32, count: u32) -> Mean {
         let mut mean = Mean::default();
-        let shifts = [1, 2].map(|purpose| sampling::shift(pair.seed, purpose));
+        if pair.is_near() {
+            let tried = (first * MORE..(first + count) * MORE).filter_map(|i| pair.by_direction(i));
+            tried.take(count as usize).for_each(|ends| mean.add(self.way(pair, ends), 1.0));
+        }
+        if mean.weight > 0.0 {
+            return mean;
+        }
         for i in first..first + count {
-            let u = sampling::sobol(i, shifts[0]);
-            let v = sampling::lattice(i, pair.rays, shifts[1]).map(f64::from);
-            let (x, nx) = pair.tree.point(pair.nodes[0], u);
-            let (y, ny) = pair.tree.point(pair.nodes[1], v);
-            let (image, turned) = pair.image(y, ny);
-            let way = image - x;
-            let weight = way.dot(nx).max(0.0) * -way.dot(turned).min(0.0) / way.length_squared().powi(2);
+            let (ends, weight) = pair.by_area(i);
             if weight > 0.0 && weight.is_finite() {
-                let [from, to] = [(x, nx, 0), (y, ny, 1)]
-                    .map(|(at, normal, k)| place(at, normal, pair.reach(k, at), pair.seed));
-                let from = Place { error: from.error.max(pair.error), ..from };
-                mean.add(self.share(pair.mirror, &from, &to), weight as f32);
+                mean.add(self.way(pair, ends), weight as f32);
             }
         }
         mean
     }
+
+    /// The share that arrives between two points of a pair.
+    fn way(&self, pair: &Pair, [x, y]: [Point; 2]) -> Spectrum {
+        let [from, to] =
+            [(x, 0), (y, 1)].map(|((at, normal), k)| place(at, normal, pair.reach(k, at), pair.seed));
+        let from = Place { error: from.error.max(pair.error), ..from };
+        self.share(pair.mirror, &from, &to)
+    }
+}
+
+/// Where, and the unit normal there.
+type Point = (DVec3, DVec3);
+
+/// Nodes are near each other within this many times the sum of their radii: from there on cosines and distances hardly vary between
+/// evenly spread points.
+const NEAR: f64 = 2.0;
+
+/// Directions that are tried at most for every way between near nodes, since some of them miss.
+const MORE: u32 = 16;
+
+/// What is known of the way between two nodes before any is tried.
+pub(crate) enum Cleared<'a> {
+    No,
+    /// No thing is in the way.
+    OfThings(Between<'a>),
+    /// Nor does anything else take light.
+    All,
 }
 
 /// Two nodes that may light each other.
@@ -142,6 +211,50 @@ impl Pair<'_> {
             let flip = |v: DVec3, height: f64| v - across * (2.0 * height);
             (flip(at, (at - point).dot(across)), flip(normal, normal.dot(across)))
         })
+    }
+
+    /// Whether the second, or its image, is so near that ways between evenly spread points are not those that light takes.
+    fn is_near(&self) -> bool {
+        let [a, b] = self.nodes;
+        b.is_piece && self.image(b.centre, b.normal).0.distance(a.centre) <= NEAR * (a.radius + b.radius)
+    }
+
+    /// Ends of way number `i` between points that are spread evenly over both, and what it carries.
+    fn by_area(&self, i: u32) -> ([Point; 2], f64) {
+        let shifts = [1, 2].map(|purpose| sampling::shift(self.seed, purpose));
+        let x = self.tree.point(self.nodes[0], sampling::sobol(i, shifts[0]));
+        let y = self.tree.point(self.nodes[1], sampling::lattice(i, self.rays, shifts[1]).map(f64::from));
+        let (image, turned) = self.image(y.0, y.1);
+        let way = image - x.0;
+        let cosines = way.dot(x.1).max(0.0) * (-way.dot(turned)).max(0.0);
+        ([x, y], cosines / way.length_squared().powi(2))
+    }
+
+    /// Ends of way number `i` from points spread evenly over the first, in directions as diffuse light leaves it; none where it
+    /// misses the second. All carry the same.
+    fn by_direction(&self, i: u32) -> Option<[Point; 2]> {
+        let [a, b] = self.nodes;
+        let shifts = [1, 3].map(|purpose| sampling::shift(self.seed, purpose));
+        // Two sets that do not know of each other: one sequence for both would tie directions to points.
+        let x = self.tree.point(a, sampling::lattice(i, self.rays * MORE, shifts[0]).map(f64::from));
+        let [square, turn] = sampling::sobol(i, shifts[1]);
+        let (sin, cos) = (TAU * turn).sin_cos();
+        let across = x.1.any_orthonormal_vector();
+        let flat = across * cos + x.1.cross(across) * sin;
+        let direction = flat * square.sqrt() + x.1 * (1.0 - square).sqrt();
+        let [p, q, r] = b.corners.map(|corner| self.image(corner, b.normal).0);
+        let turned = self.image(b.centre, b.normal).1;
+        let speed = direction.dot(turned);
+        let t = (p - x.0).dot(turned) / speed;
+        if !(speed < 0.0 && t > 0.0) {
+            return None;
+        }
+        let at = x.0 + direction * t;
+        let cross = (q - p).cross(r - p);
+        let v = (at - p).cross(r - p).dot(cross);
+        let w = (q - p).cross(at - p).dot(cross);
+        let inside = v >= 0.0 && w >= 0.0 && v + w <= cross.length_squared();
+        inside.then(|| [x, (self.image(at, turned).0, b.normal)])
     }
 
     fn reach(&self, k: usize, at: DVec3) -> f64 {
@@ -188,6 +301,11 @@ impl Mean {
         } else {
             Spectrum::ZERO
         }
+    }
+
+    /// Whether no way has carried anything.
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.weight <= 0.0
     }
 
     /// Whether some ways are hidden and others not: a difference of a tenth or more of all light.

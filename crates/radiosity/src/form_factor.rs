@@ -96,6 +96,14 @@ impl<'a> Facing<'a> {
         }
     }
 
+    /// Between two elements as large as the triangles.
+    fn between_middles(&self, at: DVec3) -> f64 {
+        let way = triangle::centre(self.to) - at;
+        let square = way.length_squared();
+        let cosines = way.dot(self.normal).max(0.0) * (-way.dot(self.across)).max(0.0) * 0.5;
+        if square > 0.0 { cosines / (std::f64::consts::PI * square * square) } else { 0.0 }
+    }
+
     fn rule(&self, from: &Corners) -> f64 {
         triangle::three_points(from).iter().map(|&at| self.seen_from(at)).sum::<f64>() / 3.0
     }
@@ -177,10 +185,14 @@ impl Through {
 
 /// Form factor of a pair whose centres are `gap` radii of both apart, as cheaply as that allows.
 ///
-/// The middle alone leaves out terms of the second order, (1/gap)² of the pair's own F at most, three points those of the
+/// From middle to middle, cos θ_i cos θ_j A_j/(π r²), leaves out terms of the second order in either size, 3 (1/2 gap)² of the pair's own F at
+/// most where both are of one size. The middle of i alone leaves out terms of the second order, (1/gap)² of the pair's own F at most, three points those of the
 /// third; where both agree within ten times `tolerance` the three are taken to be within it.
 pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, tolerance: f64) -> f64 {
     let facing = Facing::new(from, to);
+    if gap > FARTHEST {
+        return facing.between_middles(triangle::centre(from));
+    }
     let is_whole = from.iter().all(|&corner| (corner - to[0]).dot(facing.across) >= 0.0);
     if !is_whole {
         return halved(from, to, tolerance, FEW_HALVINGS).share;
@@ -196,6 +208,9 @@ pub(crate) fn quick_form_factor(from: &Corners, to: &Corners, gap: f64, toleranc
         halved(from, to, tolerance, FEW_HALVINGS).share
     }
 }
+
+/// Distance in radii from which middles are enough on both sides: within 3 (1/24)² = 0.5 %.
+const FARTHEST: f64 = 12.0;
 
 /// Distance in radii from which the middle is enough: (1/8)² is below the noise of some tried ways.
 const FAR: f64 = 8.0;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use light::Spectrum;
 use light::sampling::scramble;
 
-use crate::between::{Between, Mirror, Pair};
+use crate::between::{Between, Cleared, Mirror, Pair};
 use crate::form_factor::quick_form_factor;
 use crate::sight::{Sight, sight};
 use crate::tree::Node;
@@ -57,23 +57,27 @@ impl Gather<'_> {
     /// Looks at a node, and reports it if it may be seen as one.
     fn look(&self, receiver: &Receiver<'_>, source: u32, by: Way<'_>, receive: &mut Receive<'_>) -> Look {
         let (a, b) = (receiver.node, &self.patches.tree.nodes[source as usize]);
+        let image;
         let seen = match by {
-            None => *b,
+            None => b,
             Some((_, mirror)) if are_apart(mirror, a, b) => return Look::Done,
-            Some((_, mirror)) => b.image(mirror.plane().0, mirror.plane().1),
+            Some((_, mirror)) => {
+                image = b.image(mirror.plane().0, mirror.plane().1);
+                &image
+            }
         };
-        let Sight::Within(most) = sight(a, &seen) else { return Look::Done };
+        let Sight::Within(most) = sight(a, seen) else { return Look::Done };
         let gap = a.centre.distance(seen.centre) / (a.radius + b.radius);
         let may = most <= self.share && (b.is_piece || (b.spread <= WIDEST_GROUP && gap >= FAR));
         let children = match b.children {
             Some(children) if !may => return Look::Into(children),
             other => other,
         };
-        let share = self.clear_share(a, b, &seen, by, gap);
+        let share = self.clear_share(a, b, seen, by, gap);
         if share <= 0.0 {
             return Look::Done;
         }
-        let (tint, partial) = self.through(receiver, source, by);
+        let (tint, partial) = self.through(receiver, source, by, self.ways(most));
         match children {
             Some(children) if partial && most > 0.25 * self.share => Look::Into(children),
             _ => {
@@ -103,22 +107,46 @@ impl Gather<'_> {
         quick_form_factor(&a.corners, &seen.corners, gap, PAIR_TOLERANCE)
     }
 
-    /// The share that arrives between receiver and node, and whether things hide them in part.
-    fn through(&self, receiver: &Receiver<'_>, source: u32, by: Way<'_>) -> (Spectrum, bool) {
-        let over = by.map_or(0, |(mirror, _)| mirror + 1);
+    /// How many ways are tried to what fills no more than `most` of the hemisphere: fewer where less depends on them.
+    ///
+    /// n ways leave a link's light uncertain by share²/(4 n) at most. From a quarter of the largest share down n goes with the share: then
+    /// the many small links of a patch leave no more in all than the few large ones.
+    fn ways(&self, most: f64) -> u32 {
         let rays = self.rays.clamp(1, 1 << 16);
+        let part = (4.0 * most / self.share).min(1.0);
+        ((f64::from(rays) * part).ceil() as u32).clamp(1, rays)
+    }
+
+    /// The share that arrives between receiver and node by so many ways, and whether things hide them in part.
+    fn through(&self, receiver: &Receiver<'_>, source: u32, by: Way<'_>, rays: u32) -> (Spectrum, bool) {
+        let nodes = [receiver.node, &self.patches.tree.nodes[source as usize]];
+        let mirror = by.map(|(_, mirror)| mirror);
+        let cleared;
+        let between = match self.between.cleared(nodes, mirror) {
+            Cleared::All => return (Spectrum::ONE, false),
+            Cleared::OfThings(between) => {
+                cleared = between;
+                &cleared
+            }
+            Cleared::No => self.between,
+        };
+        let over = by.map_or(0, |(mirror, _)| mirror + 1);
         let name = scramble(receiver.name ^ scramble(source ^ scramble(over)));
         let pair = Pair {
             tree: &self.patches.tree,
-            nodes: [receiver.node, &self.patches.tree.nodes[source as usize]],
-            mirror: by.map(|(_, mirror)| mirror),
+            nodes,
+            mirror,
             seed: scramble(name ^ scramble(self.seed)),
-            rays,
+            rays: self.rays.max(1),
             error: receiver.error,
         };
-        let first = self.between.ways(&pair, 0, rays);
+        let mut first = between.ways(&pair, 0, rays);
+        if first.is_nothing() && rays < self.rays {
+            // Points of groups may look away from each other.
+            first = between.ways(&pair, rays, self.rays - rays);
+        }
         if first.is_partial() {
-            return (first.and(self.between.ways(&pair, rays, 4 * rays)).value(), true);
+            return (first.and(between.ways(&pair, rays, 4 * rays)).value(), true);
         }
         (first.value(), false)
     }

@@ -92,7 +92,13 @@ mod tests {
             assert!((f - truth).abs() < ROUNDING, "{a} {b} {c}: {f}");
         }
         // The element's normal is along the edge a; the rectangle begins in its horizon.
-        for ([a, b, c], truth) in [([1.0, 1.0, 1.0], 0.055734197003), ([4.0, 2.0, 0.25], 0.225613017819)] {
+        let perpendicular = [
+            ([1.0, 1.0, 1.0], 0.055734197003),
+            ([4.0, 2.0, 0.25], 0.225613017819),
+            ([4.0, 2.0, 2.75], 0.064836862004),
+            ([10.0, 10.0, 1.0], 0.221738670870),
+        ];
+        for ([a, b, c], truth) in perpendicular {
             let f = point_form_factor(DVec3::ZERO, DVec3::X, &square(a, b, c));
             assert!((f - truth).abs() < ROUNDING, "{a} {b} {c}: {f}");
         }

@@ -7,7 +7,7 @@
 //!
 //! **How.** Faces are halved into patches no larger than asked for ([`Cut`]). Every patch gathers from parts of the scene that
 //! are as large as they may be ([`Linking`]): halves of faces by exact form factors, groups of small faces far away as points.
-//! What is in the way is tried along some ways that belong to the pair. The shares are then balanced, so that light is neither
+//! What is in the way is tried along some ways that belong to the pair, unless surely nothing is ([`Obstacles`]). The shares are then balanced, so that light is neither
 //! made nor lost on the way ([`Links`]). Light goes round as often as [`Orders`] says.
 //!
 //! *One convention:* F_ij = 1/(π A_i) ∫∫ cos θ_i cos θ_j / r² V dA_j dA_i is the share of what leaves i that arrives at j.
@@ -61,6 +61,7 @@ mod form_factor;
 mod gather;
 mod lambert;
 mod links;
+mod obstacles;
 mod patch;
 pub mod reference;
 mod sight;
@@ -75,6 +76,7 @@ pub use direct::direct;
 pub use form_factor::{FormFactor, attenuated_form_factor, form_factor};
 pub use lambert::point_form_factor;
 pub use links::{Linking, Links};
+pub use obstacles::Obstacles;
 pub use patch::{Cut, Patch, Patches, Side, Surfaces};
 pub use solve::{MOST_ORDERS, Orders, Solution, Source, solve};
 pub use stage::Interreflected;

@@ -72,7 +72,8 @@ impl Links {
             finder.linking.share *= std::f64::consts::SQRT_2;
             finder.found = AtomicUsize::new(0);
         };
-        let (mut tints, mut links, mut starts) = (vec![Spectrum::ONE], Vec::new(), vec![0]);
+        let count = found.iter().map(|(list, _)| list.len()).sum();
+        let (mut tints, mut links, mut starts) = (vec![Spectrum::ONE], Vec::with_capacity(count), vec![0]);
         for (list, colours) in found {
             links.extend(list.into_iter().map(|link| Link {
                 tint: if link.tint == 0 { 0 } else { link.tint - 1 + tints.len() as u32 },

@@ -30,8 +30,8 @@ pub(crate) fn sight(a: &Node, b: &Node) -> Sight {
         return Sight::Within(f64::INFINITY);
     }
     let toward = way / distance;
-    // No way between the two is farther from that between the centres.
-    let slack = (radii / distance).asin();
+    // The sine: no way between the two is farther from that between the centres.
+    let slack = radii / distance;
     let (Some(cos_a), Some(cos_b)) = (best_cosine(a, toward, slack), best_cosine(b, -toward, slack)) else {
         return Sight::None;
     };
@@ -52,9 +52,19 @@ fn is_behind(a: &Node, b: &Node) -> bool {
     b.is_piece && b.corners.iter().all(|corner| (*corner - a.corners[0]).dot(a.normal) <= least)
 }
 
-/// The largest cosine between one of the node's normals and a direction within `slack` \[rad\] of `toward`; none when all
+/// The largest cosine between one of the node's normals and a direction within asin `slack` of `toward`; none when all
 /// are beyond 90°.
 fn best_cosine(node: &Node, toward: DVec3, slack: f64) -> Option<f64> {
-    let angle = node.normal.dot(toward).clamp(-1.0, 1.0).acos() - slack - node.spread;
-    (angle < FRAC_PI_2).then(|| angle.max(0.0).cos())
+    let cos = node.normal.dot(toward).clamp(-1.0, 1.0);
+    if node.spread > 0.0 {
+        let angle = cos.acos() - slack.asin() - node.spread;
+        return (angle < FRAC_PI_2).then(|| angle.max(0.0).cos());
+    }
+    // The cosine of the difference of two angles, both known by their sines and cosines.
+    let least = (1.0 - slack * slack).max(0.0).sqrt();
+    if cos >= least {
+        return Some(1.0);
+    }
+    let best = cos * least + (1.0 - cos * cos).sqrt() * slack;
+    (best > 0.0).then_some(best)
 }

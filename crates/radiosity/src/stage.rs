@@ -59,7 +59,8 @@ impl Interreflected {
 
     /// Irradiance at a place by gathering all patches, whether or not it is on a face \[W m⁻² nm⁻¹\].
     pub fn gathered(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
-        let between = Between { occlude, attenuate: &*self.attenuate, mirrors: &self.mirrors };
+        let between =
+            Between { occlude, attenuate: &*self.attenuate, mirrors: &self.mirrors, obstacles: None };
         let gather = Gather {
             patches: &self.patches,
             between: &between,

@@ -49,6 +49,20 @@ impl Node {
         Self { normal, ..Self::piece([at; 3]) }
     }
 
+    /// Writes corners of a convex hull around it to `into`, and answers how many: 3, or 8 for a group.
+    pub(crate) fn corners_of_hull(&self, into: &mut [DVec3]) -> usize {
+        if self.is_piece {
+            into[..3].copy_from_slice(&self.corners);
+            return 3;
+        }
+        for (k, corner) in into[..8].iter_mut().enumerate() {
+            let toward =
+                DVec3::from_array([1, 2, 4].map(|bit| if k & bit > 0 { self.radius } else { -self.radius }));
+            *corner = self.centre + toward;
+        }
+        8
+    }
+
     fn group(children: [u32; 2], parts: [&Self; 2]) -> Self {
         let area = parts[0].area + parts[1].area;
         let centre = (parts[0].centre * parts[0].area + parts[1].centre * parts[1].area) / area;

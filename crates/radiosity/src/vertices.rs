@@ -64,10 +64,13 @@ impl Vertices {
     }
 }
 
+/// A position's bits, and a part of space.
+type Spot = ([u64; 3], u32);
+
 /// Numbers of the vertices at the corners of every patch, and how many there are.
 fn joined(geometry: &Geometry, patches: &Patches) -> (Vec<[u32; 3]>, usize) {
     // What meets at a position in one part of space: normal of the face, normal for shading, and the vertex.
-    let mut met: HashMap<([u64; 3], u32), Vec<(Vec3, Vec3, u32)>> = HashMap::new();
+    let mut met: HashMap<Spot, Vec<(Vec3, Vec3, u32)>> = HashMap::new();
     let mut count = 0;
     let mut corners = Vec::with_capacity(patches.len());
     for (patch, &part) in patches.iter().zip(&patches.parts) {

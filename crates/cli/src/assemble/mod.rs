@@ -116,6 +116,7 @@ impl Standing {
             let among = Among {
                 nearest: self.traced.first(),
                 occlude: &*self.occlude,
+                seen: &self.traced.seen,
                 waters: self.waters.as_ref().map(Waters::flat),
             };
             let linked = self.linked.get_or_init(|| Linked::new(scene, settings, among, sources));

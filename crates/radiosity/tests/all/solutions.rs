@@ -189,4 +189,30 @@ proptest! {
             prop_assert!(irradiance[0] >= 0.0 && f64::from(irradiance[0]) <= limit(f64::from(most)));
         }
     }
+
+    /// Every order adds everywhere, and what is absorbed in the end is what was sent: Σ A (1 − ρ)(direct + E) = Φ in a closed room.
+    #[test]
+    fn orders_add_and_all_light_is_absorbed(
+        size in [1.0..6.0f32, 1.0..6.0, 1.0..6.0],
+        reflectance in 0.05..0.9f32,
+        seed in any::<u32>(),
+    ) {
+        let room = Room::empty(Vec3::from_array(size));
+        let patches = room.patches(1.6, reflectance);
+        let linking = Linking { seed, share: 0.1, closed: true, ..Linking::default() };
+        let links = Links::new(&patches, &Between::dry(&room.boxes), &linking);
+        let direct: Vec<_> = (0..patches.len() as u32)
+            .map(|i| Spectrum::splat((light::sampling::scramble(i ^ seed) >> 8) as f32))
+            .collect();
+        let [one, two, all] = [Orders::Count(1), Orders::Count(2), Orders::Until(1e-6)]
+            .map(|orders| solved(&patches, &links, &direct, orders).irradiance);
+        for patch in 0..patches.len() {
+            // The same sums, with more terms.
+            prop_assert!(one[patch][0] <= two[patch][0] && two[patch][0] <= all[patch][0]);
+        }
+        let flux = patches.integral(&direct)[0];
+        let absorbed = f64::from(1.0 - reflectance) * (flux + patches.integral(&all)[0]);
+        // As in rooms above: the balance within 1e-4 of each of 1/(1 − ρ) reflections.
+        prop_assert!((absorbed / flux - 1.0).abs() < 1e-4 / f64::from(1.0 - reflectance), "{absorbed} {flux}");
+    }
 }

@@ -7,9 +7,9 @@ mod still;
 
 use std::sync::Arc;
 
-use light::{Arrival, Illuminate, Nearest, Occlude, Place, Spectrum};
+use light::{Arrival, Geometry, Illuminate, Nearest, Occlude, Place, Spectrum};
 use radiosity::{
-    Between, Cut, Interreflected, Linking, Links, Orders, Patches, Source as Sent, direct, solve,
+    Between, Cut, Interreflected, Linking, Links, Obstacles, Orders, Patches, Source as Sent, direct, solve,
 };
 use raytrace::surface::Surface;
 use scene::Scene;
@@ -43,6 +43,8 @@ pub(super) struct Among<'a> {
     pub(super) nearest: &'a dyn Nearest,
     /// Things in its way.
     pub(super) occlude: &'a dyn Occlude,
+    /// All faces, water surfaces among them.
+    pub(super) seen: &'a Geometry,
     pub(super) waters: Option<&'a Arc<[FlatWater]>>,
 }
 
@@ -70,8 +72,6 @@ impl Linked {
         let tried = Patches::new(&parted.geometry, &all, &cut);
         let sides = reached(scene, (&tried, &all), &parted, among, sources);
         let painted = Painted { sides: Some(&sides), ..all };
-        // The same cuts, whatever is left out.
-        let cut = Cut { edge: tried.edge(), most: usize::MAX };
         let patches = Arc::new(Patches::new(&parted.geometry, &painted, &cut));
         let linking = Linking {
             share: settings.number("interreflection.share"),
@@ -79,9 +79,9 @@ impl Linked {
             closed: sides.sealed && scene.solids.is_empty() && scene.waters.is_empty() && is_opaque(scene),
             ..Linking::default()
         };
-        eprintln!("{} of {} patches, closed {}", patches.len(), tried.len(), linking.closed);
-        let links = links(&patches, still.as_ref(), among.occlude, &linking);
-        eprintln!("{} links, share {}", links.len(), links.share());
+        // Of curved bodies nobody here knows where they are not.
+        let obstacles = scene.solids.is_empty().then(|| Obstacles::new(among.seen));
+        let links = links(&patches, still.as_ref(), (among.occlude, obstacles.as_ref()), &linking);
         let emitted = patches.iter().map(|patch| painted.emitted(&patch)).collect();
         Self { parted, patches, links, linking, emitted, still }
     }
@@ -130,11 +130,17 @@ fn reached(
     Sides::new(patches, &lit, &Sight { nearest: among.nearest, parted, passes: &passes, open })
 }
 
-fn links(patches: &Patches, still: Option<&Still>, occlude: &dyn Occlude, linking: &Linking) -> Links {
-    let Some(still) = still else { return Links::new(patches, &Between::dry(occlude), linking) };
+fn links(
+    patches: &Patches,
+    still: Option<&Still>,
+    (occlude, obstacles): (&dyn Occlude, Option<&Obstacles>),
+    linking: &Linking,
+) -> Links {
+    let dry = Between { obstacles, ..Between::dry(occlude) };
+    let Some(still) = still else { return Links::new(patches, &dry, linking) };
     let apart = Apart { things: occlude, still };
     let mirrors = still.mirrors();
-    Links::new(patches, &Between { occlude: &apart, attenuate: still, mirrors: &mirrors }, linking)
+    Links::new(patches, &Between { occlude: &apart, attenuate: still, mirrors: &mirrors, ..dry }, linking)
 }
 
 /// By patch: irradiance by these sources.

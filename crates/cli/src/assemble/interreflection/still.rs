@@ -46,6 +46,10 @@ impl Attenuate for Still {
         let Some(water) = self.holds(0.5 * (from + to)) else { return Spectrum::ONE };
         self.0[water].water.loss(Loss::Diffuse).attenuate(from.distance(to) as f32)
     }
+
+    fn is_clear(&self, low: DVec3, _: DVec3) -> bool {
+        self.0.iter().all(|water| low.y >= water.surface.level || water.water.loss(Loss::Diffuse).is_zero())
+    }
 }
 
 /// One surface, from above and from below (3.19), with total reflection.

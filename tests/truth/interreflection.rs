@@ -1,0 +1,245 @@
+//! Interreflected light through scene file and pipeline, against closed forms.
+
+use std::f64::consts::PI;
+
+use keikan_tests::{luminances, lux, render};
+
+const ON: [(&str, &str); 1] = [("interreflection", "patches")];
+
+/// A box of 6 by 3 by 4 m, seen from inside, of one grey; `more` stands in it.
+fn room(grey: f64, more: &str) -> String {
+    format!(
+        r#"
+        [sun]
+        off = true
+        [sky]
+        off = true
+        [[material]]
+        name = "grey"
+        colour = {grey}
+        [[model]]
+        box = {{ size = [6, 3, 4] }}
+        material = "grey"
+        {more}
+        [[camera]]
+        position = [-2, 1.5, 0]
+        target = [0, 1.5, 0]
+        "#
+    )
+}
+
+/// Sensors just within all six walls of the room, 12 by 6 by 8 over its edges, looking inwards; and the area that each stands for.
+fn walls() -> (String, Vec<f64>) {
+    let near = 1e-4;
+    let walls = [
+        // origin, u, v, counts, normal
+        ([-3.0, near, -2.0], [6.0, 0.0, 0.0], [0.0, 0.0, 4.0], [12, 8], [0, 1, 0]),
+        ([-3.0, 3.0 - near, -2.0], [6.0, 0.0, 0.0], [0.0, 0.0, 4.0], [12, 8], [0, -1, 0]),
+        ([-3.0, 0.0, -2.0 + near], [6.0, 0.0, 0.0], [0.0, 3.0, 0.0], [12, 6], [0, 0, 1]),
+        ([-3.0, 0.0, 2.0 - near], [6.0, 0.0, 0.0], [0.0, 3.0, 0.0], [12, 6], [0, 0, -1]),
+        ([-3.0 + near, 0.0, -2.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0], [6, 8], [1, 0, 0]),
+        ([3.0 - near, 0.0, -2.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0], [6, 8], [-1, 0, 0]),
+    ];
+    let (mut text, mut areas) = (String::new(), Vec::new());
+    for (origin, u, v, [columns, rows], normal) in walls {
+        text += &format!(
+            "[[sensor]]\ngrid = {{ origin = {origin:?}, u = {u:?}, v = {v:?}, counts = [{columns}, {rows}] }}\nnormal = {normal:?}\n"
+        );
+        areas.extend(vec![0.25; columns * rows]);
+    }
+    (text, areas)
+}
+
+#[test]
+fn a_closed_room_holds_its_flux_over_what_it_absorbs() {
+    let (sensors, areas) = walls();
+    let lamp = "[[light]]\nposition = [0.4, 1.6, 0.3]\nintensity = 100\n";
+    let surface: f64 = areas.iter().sum();
+    assert!((surface - 2.0 * (18.0 + 12.0 + 24.0)).abs() < 1e-9);
+    for grey in [0.3, 0.7] {
+        let text = room(grey, &format!("{lamp}{sensors}"));
+        let set = [ON[0], ("interreflection.patches", "1500"), ("interreflection.orders", "0")];
+        let found: f64 = lux(&text, &set).iter().zip(&areas).map(|(lux, area)| lux * area).sum();
+        let truth = 400.0 * PI / (1.0 - grey);
+        println!("ρ = {grey}: {:.5} of Φ/(1 − ρ)", found / truth);
+        // Midpoints of 0.5 m for the lamp's light, cos³/h² from 1.3 m at least: h² f″/24 ≤ 0.25 · 6/1.7/24 = 4 % under it, of both signs over each
+        // wall, 0.5 % of its sum; the interreflected part is evener. Spectra of grey are grey to 1e-3, times ρ/(1 − ρ).
+        assert!((found / truth - 1.0).abs() < 5e-3 + 1e-3 * grey / (1.0 - grey), "{grey}: {found} {truth}");
+    }
+}
+
+#[test]
+fn a_room_that_shines_is_a_furnace() {
+    // Emission e and reflectance ρ everywhere: radiosity over π is e/(1 − ρ), for eyes and for sensors (π L).
+    let shining = room(0.5, "[[sensor]]\npoints = [[1, 1.2, 0.5]]\nnormal = [0.6, 0.8, 0]\n")
+        .replace("colour = 0.5", "colour = 0.5\nemission = 100");
+    let set = [ON[0], ("interreflection.patches", "600"), ("interreflection.orders", "0")];
+    for luminance in luminances(&render(&shining, (16, 12), &set)) {
+        // Balance 1e-4 for each of 1/(1 − ρ) reflections, and the grey's spectrum 1e-3 of what is reflected.
+        assert!((f64::from(luminance) / 200.0 - 1.0).abs() < 2e-3, "{luminance}");
+    }
+    let at = lux(&shining, &set)[0];
+    // A point sees groups as points: 1 % as measured in the crate's own furnace.
+    assert!((at / (200.0 * PI) - 1.0).abs() < 0.01, "{at}");
+}
+
+#[test]
+fn orders_add_and_layers_add_up() {
+    let lamp = "[[light]]\nname = \"lamp\"\nposition = [0, 2.9, 0]\nintensity = 100\n";
+    let text = room(0.6, &format!("{lamp}[[sensor]]\npoints = [[1, 0.8, 0.5]]\n"));
+    let total = |orders: &str| {
+        lux(&text, &[ON[0], ("interreflection.patches", "300"), ("interreflection.orders", orders)])[0]
+    };
+    let (off, [one, three, all]) = (lux(&text, &[])[0], ["1", "3", "0"].map(total));
+    assert!(off < one && one < three && three < all, "{off} {one} {three} {all}");
+    // After n orders ρⁿ of the interreflected light is left at most.
+    assert!(all - three <= 0.6f64.powi(3) * (all - off) * 1.01);
+    let (_, pipeline) = keikan_tests::pipeline(&text, (8, 8), &ON);
+    let names: Vec<_> = pipeline.sources.iter().map(|source| source.name.as_str()).collect();
+    assert_eq!(names, ["lamp", "interreflected"]);
+}
+
+/// CIE 171:2006 case 5.6, scenario 2: what a matt floor of 4 by 4 m sends to the wall and the ceiling of a room 3 m high, 100 E/(E_hz ρ). Columns:
+/// distance from the wall \[m\], height \[m\], the form factor by quadrature in per cent.
+const CASE_5_6: [[f64; 3]; 13] = [
+    [0.0, 0.75, 35.9005],
+    [0.0, 1.25, 27.9916],
+    [0.0, 1.75, 21.6385],
+    [0.0, 2.25, 16.7163],
+    [0.0, 2.75, 12.9674],
+    [0.25, 3.0, 26.7952],
+    [0.75, 3.0, 30.9387],
+    [1.25, 3.0, 33.9757],
+    [1.75, 3.0, 35.5666],
+    [2.25, 3.0, 35.5666],
+    [2.75, 3.0, 33.9757],
+    [3.25, 3.0, 30.9387],
+    [3.75, 3.0, 26.7952],
+];
+
+#[test]
+fn cie_171_case_5_6_light_reflected_by_a_floor() {
+    // The floor is lit evenly, by a sun straight above; wall and ceiling are sensors alone.
+    let points = |ceiling: bool| -> String {
+        let rows = CASE_5_6.iter().filter(|row| (row[1] == 3.0) == ceiling);
+        rows.map(|[away, height, _]| format!("[2, {height:?}, {away:?}]")).collect::<Vec<_>>().join(", ")
+    };
+    let text = format!(
+        r#"
+        [sky]
+        off = true
+        [sun]
+        altitude = 90
+        azimuth = 0
+        illuminance = 10000
+        diameter = 0
+        [[material]]
+        name = "floor"
+        colour = 0.3
+        [[model]]
+        plane = {{ size = [4, 4] }}
+        material = "floor"
+        position = [2, 0, 2]
+        [[camera]]
+        position = [2, 1, 3.9]
+        target = [2, 1, 0]
+        [[sensor]]
+        points = [{}]
+        normal = [0, 0, 1]
+        [[sensor]]
+        points = [{}]
+        normal = [0, -1, 0]
+        "#,
+        points(false),
+        points(true)
+    );
+    println!(
+        "CIE 171 case 5.6: from the wall, height, per cent here with patches of 1.5 and 0.3 m, by quadrature"
+    );
+    let found = ["1.5", "0.3"].map(|edge| lux(&text, &[ON[0], ("interreflection.patch", edge)]));
+    for (i, [away, height, truth]) in CASE_5_6.into_iter().enumerate() {
+        let [coarse, fine] = [0, 1].map(|k| found[k][i] / (10_000.0 * 0.3) * 100.0);
+        println!("{away:4} {height:4} {coarse:8.4} {fine:8.4} {truth:8.4}");
+        // From a point the light of an evenly lit plane is exact whatever the patches are (Lambert, and far groups that are
+        // pieces of one face): what is left is the grey's spectrum, 1e-3, f32 and the table's last digit.
+        for here in [coarse, fine] {
+            assert!((here / truth - 1.0).abs() < 1.1e-3, "{away} {height}: {here} {truth}");
+        }
+    }
+}
+
+/// Index, reflectance of the floor.
+const N: f64 = 1.33;
+const RHO: f64 = 0.02;
+
+/// Share of even light from below that a flat surface reflects, total reflection included: by Fresnel's formulas and midpoints.
+fn reflected_below() -> f64 {
+    let steps = 200_000;
+    let r = |cos: f64| {
+        let sin = (1.0 - cos * cos).sqrt() * N;
+        if sin >= 1.0 {
+            return 1.0;
+        }
+        let out = (1.0 - sin * sin).sqrt();
+        let [s, p] = [(N * cos - out) / (N * cos + out), (cos - N * out) / (cos + N * out)];
+        0.5 * (s * s + p * p)
+    };
+    let h = 1.0 / f64::from(steps);
+    (0..steps).map(|i| (f64::from(i) + 0.5) * h).map(|cos| 2.0 * cos * r(cos) * h).sum()
+}
+
+#[test]
+fn floor_and_underside_of_a_pool_send_light_back_and_forth() {
+    let start = std::time::Instant::now();
+    let pool = |more: &str| {
+        format!(
+            r#"
+            [sky]
+            off = true
+            [sun]
+            altitude = 45
+            azimuth = 70
+            illuminance = 100000
+            diameter = 0
+            [settings]
+            interreflection = "patches"
+            "interreflection.patches" = 70
+            "interreflection.rays" = 64
+            [[material]]
+            name = "floor"
+            colour = {RHO}
+            [[model]]
+            plane = {{ size = [400, 400] }}
+            material = "floor"
+            position = [0, -2, 0]
+            [[camera]]
+            position = [0, 5, 0]
+            direction = [0, -1, 0]
+            field_of_view = 2
+            [[sensor]]
+            points = [[0.3, -1.9999, 0.2]]
+            {more}
+            "#
+        )
+    };
+    let water = "[[water]]\nquality = 'clear'\nindex = 1.33\n\
+        polygon = { points = [[-200, 0, -200], [-200, 0, 200], [200, 0, 200], [200, 0, -200]] }\n";
+    let (i, j) = (45f64.to_radians(), (45f64.to_radians().sin() / N).asin());
+    let [s, p] = [(i - j).sin() / (i + j).sin(), (i - j).tan() / (i + j).tan()];
+    let passes = 1.0 - 0.5 * (s * s + p * p);
+    let back = 1.0 / (1.0 - RHO * reflected_below());
+    let lit = |more: &str| lux(&pool(more), &[])[0];
+    let seen = |more: &str| {
+        let film = render(&pool(more), (8, 8), &[]);
+        luminances(&film).iter().map(|&l| f64::from(l)).sum::<f64>() / 64.0
+    };
+    let head_on = ((N - 1.0) / (N + 1.0)).powi(2);
+    let (below, above) = (lit(water) / lit(""), seen(water) / seen(""));
+    let seconds = start.elapsed().as_secs_f64();
+    println!("flat pool: under water {below:.5} (0.9817), from the air {above:.5} (0.5439), {seconds:.2} s");
+    let truth = [passes * back, passes * back * (1.0 - head_on) / (N * N)];
+    assert!((truth[0] - 0.9817).abs() < 5e-5 && (truth[1] - 0.5439).abs() < 5e-5, "{truth:?}");
+    // The floor ends 200 m away, 100 depths: 1e-4 of its light. Of the factor 1.0095 patches leave a tenth at most.
+    assert!((below / truth[0] - 1.0).abs() < 1e-3, "{below} {truth:?}");
+    assert!((above / truth[1] - 1.0).abs() < 1e-3, "{above} {truth:?}");
+}
