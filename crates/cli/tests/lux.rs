@@ -78,11 +78,11 @@ fn light_is_told_apart_by_its_ways() {
         // Each lamp gets straight to its own side, and through the surface to the other.
         match row["sensor"].as_str() {
             "floor" => assert!(
-                above[0] == 0.0 && above[1] == 0.0 && above[2] > 1.0 && below[0] > 1.0 && below[2] == 0.0
+                above[0] == 0.0 && above[1] == 0.0 && above[2] > 1.0 && below[0] > 0.5 && below[2] == 0.0
             ),
             _ => assert!(above[0] == 0.0 && above[1] > 0.01 && below[0] == 0.0 && below[2] > 0.1, "{csv}"),
         }
-        assert!(lux("interreflected_lx") > 1.0);
+        assert!(lux("interreflected_lx") > 0.1);
         // Patches four times fewer leave some error, and not all of the light.
         assert!(lux("error_lx") > 0.0 && lux("error_lx") < 0.3 * lux("total_lx"), "{csv}");
     }

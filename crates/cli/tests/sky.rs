@@ -135,7 +135,7 @@ const LAWN: &str = "[site]\nlatitude = 35\nlongitude = 139\nnorth = 30\n\
 /// Lux of the sky on each sensor, without light from the ground.
 fn sky_lux(folder: &Path, scene: &str) -> Vec<f64> {
     let table = json(folder, &["lux", scene, "--json", "--set", "sky.albedo=0"]);
-    let sky = table["sources"].as_array().unwrap().iter().position(|name| name == "sky").unwrap();
+    let sky = table["columns"].as_array().unwrap().iter().position(|c| c["source"] == "sky").unwrap();
     table["rows"].as_array().unwrap().iter().map(|row| number(&row["parts"][sky])).collect()
 }
 

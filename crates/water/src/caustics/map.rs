@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use light::{fresnel, reflect, refract};
+use rayon::prelude::*;
 
 use super::clip::share_in_square;
 use super::grid::Grid;
@@ -67,10 +68,9 @@ impl BeamMap {
         let turn = Turn { surface: water.surface, source, way, from_above };
         let footprint = Covariance::even(grid.step.max_element());
         let [across, along] = grid.corners();
-        let mut rays = Vec::with_capacity(across * along);
-        for j in 0..along {
-            rays.extend((0..across).map(|i| turn.ray(grid.at([i, j]), waves, footprint)));
-        }
+        let row = |j| (0..across).map(move |i| [i, j]);
+        let ray = |corner| turn.ray(grid.at(corner), waves, footprint);
+        let rays: Vec<Ray> = (0..along).into_par_iter().flat_map_iter(|j| row(j).map(ray)).collect();
         let lit = |cell| {
             let bits = grid.triangles(cell).map(|corners| {
                 let sends = corners.iter().all(|&corner| rays[grid.index(corner)].share >= 0.0);

@@ -23,7 +23,11 @@ impl Angles {
             let own = match (i.checked_sub(1).map(|i| points[i]), points.get(i + 1)) {
                 (Some(a), Some(&b)) => {
                     let (before, after) = (point[0] - a[0], b[0] - point[0]);
-                    (between(a, point) * after + between(point, b) * before) / (before + after)
+                    let (left, right) = (between(a, point), between(point, b));
+                    let parabola = (left * after + right * before) / (before + after);
+                    // Steeper than three times a chord, the curve would overshoot beside it (Fritsch and Carlson 1980).
+                    let most = 3.0 * left.abs().min(right.abs());
+                    if left * right > 0.0 { parabola.clamp(-most, most) } else { parabola }
                 }
                 (Some(a), None) => between(a, point),
                 (None, _) => slope,
