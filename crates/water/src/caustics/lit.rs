@@ -160,7 +160,7 @@ impl Illuminate for Beams {
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {
-        self.inner.radiance(ray)
+        self.flat.radiance(ray)
     }
 
     /// As if the water were flat: what waves gather, scattering evens out.
