@@ -294,13 +294,13 @@ pub const KNOBS: &[Knob] = &[
         name: "interreflection",
         domain: Domain::Choice(&["off", "patches"]),
         presets: ["off"; 3],
-        doc: "whether surfaces light each other, diffusely and from face to face; off leaves it out",
+        doc: "whether surfaces light each other, diffusely and from face to face: in the thesis' indoor pool 17,500 patches take 40 processor seconds before the first pixel; off leaves it out",
     },
     Knob {
         name: "interreflection.patches",
         domain: Domain::Integer(16, 1_000_000),
         presets: ["2000", "8000", "40000"],
-        doc: "no more patches than this, as far as the faces themselves are not more (two for each, less those that no light reaches)",
+        doc: "no more patches than this, as far as the faces themselves are not more (two for each, less those that no light reaches); time and memory grow a little faster than they do: 17,500 take 285 MiB",
     },
     Knob {
         name: "interreflection.patch",
@@ -312,13 +312,13 @@ pub const KNOBS: &[Knob] = &[
         name: "interreflection.share",
         domain: Domain::Number(0.0001, 1.0),
         presets: ["0.1", "0.05", "0.02"],
-        doc: "what fills no more than this share of a patch's hemisphere is seen as one",
+        doc: "what fills no more than this share of a patch's hemisphere is seen as one; 0.05 leaves 0.6 %, 0.001 0.2 % rms of a bare room's light",
     },
     Knob {
         name: "interreflection.rays",
         domain: Domain::Integer(1, 1024),
         presets: ["2", "4", "16"],
-        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree",
+        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree; time grows nearly with it: 4 and 16 take 20 and 41 s in the thesis' pool with an underwater lamp, whose dark walls are blotched at 4",
     },
     Knob {
         name: "interreflection.orders",
