@@ -62,7 +62,45 @@ const BODIES: &str = r#"
     target = [0, 0.5, 0]
 "#;
 
-const SCENES: [&str; 2] = [PARK, BODIES];
+/// Turbid water with waves that gather light, a lamp above and one below, sky, and light from face to face.
+const POND: &str = r#"
+    [settings]
+    interreflection = "patches"
+    "interreflection.patches" = 300
+    [settings.water.caustics]
+    cells = 8
+    [sky]
+    model = "uniform"
+    illuminance = 100
+    [[model]]
+    plane = { size = [6, 6] }
+    position = [0, -1.5, 0]
+    [[model]]
+    box = { size = [1, 3, 6] }
+    position = [-3, -1.5, 0]
+    [[model]]
+    box = { size = [0.3, 2, 0.3] }
+    position = [0.4, -1.5, -0.5]
+    [[water]]
+    quality = "jerlov-5C"
+    polygon = { points = [[-3, 0, -3], [3, 0, -3], [3, 0, 3], [-3, 0, 3]] }
+    waves = [{ amplitude = 0.02, wavelength = 0.8, direction = 60 }]
+    [[light]]
+    name = "above"
+    position = [1, 2, 1]
+    intensity = 300
+    temperature = 2700
+    [[light]]
+    name = "below"
+    position = [-1, -0.8, 1]
+    intensity = 50
+    temperature = 5000
+    [[camera]]
+    position = [2.5, 2, 4]
+    target = [0, -0.3, 0]
+"#;
+
+const SCENES: [&str; 3] = [PARK, BODIES, POND];
 
 const SIZE: (u32, u32) = (97, 61);
 

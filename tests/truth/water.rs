@@ -25,7 +25,7 @@ fn pool(grey: f64, more: &str) -> String {
     )
 }
 
-const WATER: &str = "[[water]]\nquality = 'clear'\nindex = 1.33\n\
+pub(crate) const WATER: &str = "[[water]]\nquality = 'clear'\nindex = 1.33\n\
     polygon = { points = [[-200, 0, -200], [-200, 0, 200], [200, 0, 200], [200, 0, -200]] }\n";
 
 const DOWN: &str = "[[camera]]\nposition = [0, 5, 0]\ndirection = [0, -1, 0]\nfield_of_view = 2\n";
@@ -162,43 +162,45 @@ fn a_lamp_and_an_eye_on_either_side_of_the_surface() {
     }
 }
 
+/// Asserts that an eye in a furnace sees radiance l through `water`, 4° and 59° above the horizon: a sky of radiance l, a bottom that sends n² l
+/// up (here by emission, so that it need not be lit), and the water between.
+pub(crate) fn shines_like_its_surroundings(water: &str) {
+    let l = 1000.0;
+    for position in ["[0, 3, 40]", "[0, 5, 3]"] {
+        let text = format!(
+            r#"
+            [[material]]
+            name = "bottom"
+            colour = 0
+            emission = {}
+            [[model]]
+            plane = {{ size = [400, 400] }}
+            material = "bottom"
+            position = [0, -2, 0]
+            [sun]
+            off = true
+            [sky]
+            model = "uniform"
+            illuminance = {}
+            [[camera]]
+            position = {position}
+            target = [0, 0, 0]
+            field_of_view = 2
+            {water}
+            "#,
+            N * N * l,
+            std::f64::consts::PI * l,
+        );
+        for luminance in luminances(&render(&text, (16, 16), &[])) {
+            // The table that a stated illuminance is from is 8.6e-5 off (midpoints of 1.5°).
+            assert!((f64::from(luminance) / l - 1.0).abs() < 2e-4, "{position}: {luminance}");
+        }
+    }
+}
+
 #[test]
 fn water_that_shines_like_its_surroundings_is_not_to_be_seen() {
-    // A furnace: sky of radiance L, bottom that sends n² L up (here by emission, so that it need not be lit).
-    let l = 1000.0;
-    let text = format!(
-        r#"
-        [[material]]
-        name = "bottom"
-        colour = 0
-        emission = {}
-        [[model]]
-        plane = {{ size = [400, 400] }}
-        material = "bottom"
-        position = [0, -2, 0]
-        [sun]
-        off = true
-        [sky]
-        model = "uniform"
-        illuminance = {}
-        [[camera]]
-        position = [0, 3, 40]
-        target = [0, 0, 0]
-        field_of_view = 2
-        [[camera]]
-        name = "steep"
-        position = [0, 5, 3]
-        target = [0, 0, 0]
-        {WATER}
-        "#,
-        N * N * l,
-        std::f64::consts::PI * l,
-    );
-    let film = render(&text, (16, 16), &[]);
-    for luminance in luminances(&film) {
-        // The table that a stated illuminance is from is 8.6e-5 off (midpoints of 1.5°).
-        assert!((f64::from(luminance) / l - 1.0).abs() < 2e-4, "{luminance}");
-    }
+    shines_like_its_surroundings(WATER);
 }
 
 #[test]

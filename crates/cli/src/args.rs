@@ -38,7 +38,7 @@ pub enum Command {
     Animate(Animate),
     /// Say which stages run, with which models and knobs, and why. Renders nothing.
     Plan(PlanArgs),
-    /// Illuminance at the scene's sensors, by source.
+    /// Illuminance at the scene's sensors, by source and by the way its light takes, with estimated errors.
     Lux(Lux),
     /// What the sky of a place and time is: luminance, lux, colours; as a table, as a picture.
     Sky(Sky),

@@ -318,7 +318,7 @@ pub const KNOBS: &[Knob] = &[
         name: "interreflection.rays",
         domain: Domain::Integer(1, 1024),
         presets: ["2", "4", "16"],
-        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree; time grows nearly with it: 4 and 16 take 20 and 41 s in the thesis' pool with an underwater lamp, whose dark walls are blotched at 4",
+        doc: "ways tried between a patch and what it sees as one; five times as many where they disagree; time grows nearly with it: 4 and 16 take 20 and 51 s in the thesis' pool with an underwater lamp, whose dark walls are blotched at 4",
     },
     Knob {
         name: "interreflection.orders",
@@ -330,7 +330,7 @@ pub const KNOBS: &[Knob] = &[
         name: "water.caustics",
         domain: Domain::Choice(&["off", "beams"]),
         presets: ["off", "beams", "beams"],
-        doc: "what waves do to the light of sun and lamps above them: nothing (light takes the paths of flat water, thesis 3.2), or they gather it, below the water and off it, by all its paths; where there are no waves all the same",
+        doc: "what waves do to the light of the sun and of luminaires above them (not of lamps with an extent): nothing (light takes the paths of flat water, thesis 3.2), or they gather it, below the water and off it, by all its paths; where there are no waves all the same",
     },
     Knob {
         name: "water.caustics.cells",

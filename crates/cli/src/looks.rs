@@ -77,30 +77,15 @@ impl Extremes {
 mod tests {
     use std::cell::Cell;
 
-    use glam::{Vec2, Vec3};
-    use light::{Hit, Known, Path, Place};
+    use glam::Vec3;
+    use light::{Hit, Known, Place};
 
     use super::*;
 
     /// Pieces of the given shares; of each the number is its hit's triangle.
     fn group(shares: &[f32]) -> Vec<Piece> {
-        let hit = Hit {
-            place: Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 },
-            shading_normal: Vec3::Y,
-            toward_eye: Vec3::Y,
-            distance: 1.0,
-            uv: Vec2::ZERO,
-            tangent: Vec3::ZERO,
-            width: 0.0,
-            curvature: 0.0,
-            uv_density: 0.0,
-            vertex_colour: Vec3::ONE,
-            instance: 0,
-            triangle: 0,
-            material: 0,
-            front: true,
-            path: Path::EYE,
-        };
+        let place = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };
+        let hit = Hit::plain(place, Vec3::Y, 1.0);
         let piece = |(&share, triangle)| Piece {
             column: 0,
             share,

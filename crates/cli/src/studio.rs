@@ -102,7 +102,7 @@ impl Studio {
         let (scene, mut plan) = self.set_up(spec)?;
         fits(&plan, &scene, self.layers)?;
         let pipeline = self.pipeline(spec, &plan, &scene, seconds)?;
-        plan.warnings.extend(self.standing.iter().flat_map(|standing| standing.warnings(&scene)));
+        plan.warnings.extend(self.standing.iter().flat_map(|standing| standing.warnings.iter().cloned()));
         monitor.rendering.store(true, Ordering::Relaxed);
         monitor.rows.store(0, Ordering::Relaxed);
         let film = seconds.time("render", || {

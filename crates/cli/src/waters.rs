@@ -16,6 +16,9 @@ use crate::command::{load, pretty, say, warn};
 /// Depths of a white bottom whose colours are shown \[m\].
 const DEPTHS: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
+/// Bands that a list of waters shows: blue, green, red.
+const LISTED: [usize; 3] = [1, 3, 6];
+
 /// Shows waters.
 ///
 /// # Errors
@@ -63,6 +66,9 @@ struct Report {
     wavelengths_nm: [f64; BANDS],
     rows: Vec<Row>,
     colours: Vec<Colour>,
+    /// Of the rows, those that a list of many waters shows: b/c, and 1/e of daylight \[m\].
+    #[serde(skip)]
+    listed: [Spectrum; 2],
 }
 
 /// A number for each band.
@@ -88,16 +94,13 @@ struct Colour {
 
 impl Report {
     fn new(name: String, optics: &Optics) -> Self {
-        let coefficients = optics.coefficients();
-        let reach = |name: &str| {
-            let found = coefficients.iter().find(|(known, _)| known.starts_with(name));
-            found.map_or([f32::INFINITY; BANDS], |(_, k)| k.map(|k| 1.0 / k).0)
-        };
-        let mut rows: Vec<Row> =
-            coefficients.iter().map(|(what, k)| Row { what, unit: "1/m", values: k.0 }).collect();
-        rows.push(Row { what: "albedo b/c", unit: "", values: optics.albedo().0 });
-        rows.push(Row { what: "1/e of an image (c)", unit: "m", values: reach("extinction") });
-        rows.push(Row { what: "1/e of daylight (Kd)", unit: "m", values: reach("daylight") });
+        let (albedo, [image, daylight]) = (optics.albedo(), optics.reaches());
+        let coefficients = optics.coefficients().map(|(what, k)| (what, "1/m", k));
+        let rows = coefficients.into_iter().chain([
+            ("albedo b/c", "", albedo),
+            ("1/e of an image (c)", "m", image),
+            ("1/e of daylight (Kd)", "m", daylight),
+        ]);
         let depths = DEPTHS.into_iter().map(Some).chain([None]);
         Self {
             name,
@@ -105,13 +108,10 @@ impl Report {
             critical_angle_deg: optics.critical_angle().to_degrees(),
             secchi_depth_m: optics.secchi_depth(),
             wavelengths_nm: WAVELENGTHS_NM,
-            rows,
+            rows: rows.map(|(what, unit, values)| Row { what, unit, values: values.0 }).collect(),
             colours: depths.map(|depth| Colour::new(optics, depth)).collect(),
+            listed: [albedo, daylight],
         }
-    }
-
-    fn values(&self, what: &str) -> [f32; BANDS] {
-        self.rows.iter().find(|row| row.what.starts_with(what)).map_or([f32::NAN; BANDS], |row| row.values)
     }
 }
 
@@ -190,14 +190,13 @@ fn list(reports: &[Report]) -> String {
         "{:13} {:>6} {:>9}  {:^23}  {:^17}  {:>6}  {:7}  {:7}",
         "", "index", "Secchi", "1/e of daylight [m]", "b/c", "R∞", "colour", "bright"
     );
-    text += &format!(
-        "\n{:13} {:>6} {:>9}  {:>7} {:>7} {:>7}  {:>5} {:>5} {:>5}",
-        "", "", "", "464 nm", "536 nm", "633 nm", "464", "536", "633"
-    );
+    let [blue, green, red] = LISTED.map(|band| format!("{:.0} nm", WAVELENGTHS_NM[band]));
+    let [b, g, r] = LISTED.map(|band| format!("{:.0}", WAVELENGTHS_NM[band]));
+    text += &format!("\n{:30}  {blue:>7} {green:>7} {red:>7}  {b:>5} {g:>5} {r:>5}", "");
     for report in reports {
-        let [blue, green, red] = [1, 3, 6].map(|band| number(report.values("1/e of daylight")[band]));
-        let albedo = report.values("albedo");
-        let [b, g, r] = [1, 3, 6].map(|band| albedo[band]);
+        let [albedo, daylight] = report.listed;
+        let [blue, green, red] = LISTED.map(|band| number(daylight[band]));
+        let [b, g, r] = LISTED.map(|band| albedo[band]);
         let deep = report.colours.last();
         let (reflectance, srgb, bright) =
             deep.map_or((0.0, "", ""), |deep| (deep.reflectance, deep.srgb.as_str(), deep.bright.as_str()));

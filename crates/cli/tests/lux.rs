@@ -94,6 +94,30 @@ fn light_is_told_apart_by_its_ways() {
 }
 
 #[test]
+fn ways_are_all_of_the_light_with_beams_and_without() {
+    let folder = folder("lux-all");
+    let waves = "waves = [{ amplitude = 0.02, wavelength = 1 }]\n";
+    for (name, water) in [("flat.toml", WATER.to_owned()), ("wavy.toml", format!("{WATER}{waves}"))] {
+        let file = format!("{POOL}{water}[sun]\naltitude = 70\nazimuth = 100\ndiameter = 0\n");
+        std::fs::write(folder.join(name), &file).unwrap();
+        let csv = text(&keikan(&folder, &["lux", name]).stdout);
+        let scene = scene::parse(&file, std::path::Path::new("."), std::path::Path::new(name)).unwrap();
+        let view = keikan::args::View::default();
+        let plan = keikan::plan::Plan::new(&scene, &view).unwrap();
+        let whole = keikan::lux::table(&scene, &keikan::assemble::assemble(&plan, &scene).unwrap());
+        for (by_ways, whole) in rows(&csv).iter().zip(&whole.rows) {
+            let total = by_ways["total_lx"].parse::<f64>().unwrap();
+            // Point sources alone: f32 sums in another order, and six decimals.
+            assert!(
+                (total - whole.total).abs() < 1e-5 * whole.total + 1e-5,
+                "{name}: {total} {}",
+                whole.total
+            );
+        }
+    }
+}
+
+#[test]
 fn the_error_of_a_sky_is_what_other_directions_find() {
     let folder = folder("lux-error");
     // Half the sky is hidden; the uniform one has no noise of its own.

@@ -135,6 +135,28 @@ pub struct Hit {
 }
 
 impl Hit {
+    /// A hit at `place` on the front of a plain flat face (no texture, number 0 of everything), seen by a line straight from the eye that is
+    /// `distance` \[m\] away along the unit vector `toward_eye`.
+    pub fn plain(place: Place, toward_eye: Vec3, distance: f32) -> Self {
+        Self {
+            place,
+            shading_normal: place.normal,
+            toward_eye,
+            distance,
+            uv: Vec2::ZERO,
+            tangent: Vec3::ZERO,
+            width: 0.0,
+            curvature: 0.0,
+            uv_density: 0.0,
+            vertex_colour: Vec3::ONE,
+            instance: 0,
+            triangle: 0,
+            material: 0,
+            front: true,
+            path: Path::EYE,
+        }
+    }
+
     /// Angle by which the normal turns across the bundle that this hit stands for \[rad\], at most a little less than a
     /// quarter turn.
     pub fn turn(&self) -> f32 {

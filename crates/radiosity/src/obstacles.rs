@@ -101,7 +101,8 @@ impl Obstacles {
 fn misses([from, to]: [DVec3; 2], radius: f64, part: &Boxed) -> bool {
     let inverse = (to - from).recip();
     let [a, b] = [part.low - radius - from, part.high + radius - from].map(|corner| corner * inverse);
-    // 0/0, along a side, is no number, which `min` and `max` pass over here: it counts as a meeting.
+    // 0 · ∞, for a way along a side that touches it, is no number, which `min` and `max` pass over: whether that counts as a meeting
+    // makes no difference, as nothing is nearer than the radius then.
     let enters = a.min(b).to_array().into_iter().fold(0.0, f64::max);
     let leaves = a.max(b).to_array().into_iter().fold(1.0, f64::min);
     enters > leaves

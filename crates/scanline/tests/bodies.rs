@@ -7,11 +7,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use common::{ahead, placed, soup, stage};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use keikan_scanline::{Knobs, Localised, Rule};
 use light::{
-    Bodies, Geometry, Hit, Hull, Known, Mesh, Occlude, Opacity, Path, Piece, Place, PointSource, Projection,
-    Ray, See, Spectrum, Stretch, View,
+    Bodies, Geometry, Hit, Hull, Known, Mesh, Occlude, Opacity, Piece, Place, PointSource, Projection, Ray,
+    See, Spectrum, Stretch, View,
 };
 
 const RULES: [Rule; 3] = [Rule::Trapezoid, Rule::Midpoint, Rule::Exact];
@@ -54,23 +54,8 @@ impl Bodies for Balls {
     fn hit(&self, body: u32, line: (DVec3, DVec3), distance: f64, ray: &Ray, _pixel_width: f32) -> Hit {
         let position = (line.0 + line.1 * distance).as_vec3();
         let normal = (line.0 + line.1 * distance - self.balls[body as usize].0).normalize().as_vec3();
-        Hit {
-            place: Place { position, error: 0.0, normal, seed: 0 },
-            shading_normal: normal,
-            toward_eye: -ray.direction,
-            distance: distance as f32,
-            uv: Vec2::ZERO,
-            tangent: Vec3::ZERO,
-            width: 0.0,
-            curvature: 0.0,
-            uv_density: 0.0,
-            vertex_colour: Vec3::ONE,
-            instance: FIRST + body,
-            triangle: 0,
-            material: 0,
-            front: true,
-            path: Path::EYE,
-        }
+        let place = Place { position, error: 0.0, normal, seed: 0 };
+        Hit { instance: FIRST + body, ..Hit::plain(place, -ray.direction, distance as f32) }
     }
 }
 

@@ -14,9 +14,9 @@
 //! [`light::Traverse`]). With waves on it ([`waves`]): what one sees of them ([`waves::WavyShade`]), and the light that they gather
 //! ([`caustics::Beams`]).
 //!
-//! **Leaves out.** Waves for the light of the sky and of lamps under water; interreflection; water that changes with depth;
-//! fluorescence, polarisation; one index of refraction serves all bands; the sky that a surface mirrors onto things. [`flat`] asks an
-//! occluder on every leg; all else asks nobody what stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and
+//! **Leaves out.** Waves for the light of the sky, of lamps under water and of lamps with an extent; interreflection; water that changes with depth;
+//! fluorescence, polarisation; one index of refraction serves all bands; the sky that a surface mirrors onto things. [`flat`] and
+//! [`caustics`] ask an occluder on every leg; all else asks nobody what stands in the way: callers give lit stretches and visibility, and [`SkyBelow`] and
 //! [`ScatteredSky`] know no shadows.
 //!
 //! **Known to be wrong.** K = a + b_b is the loss of a vertical beam scattered rarely: in coastal waters (ω0 from 0.8 to 0.95) it is
@@ -24,7 +24,9 @@
 //! the factor of [`multiple`] makes that good within 6 % in deep water, within 11 % over a black bottom, and not for luminaires. The sky's
 //! rays are 10° apart. In [`flat`] the sky's shadows are those of a few dozen directions; the sun that the water scatters is a
 //! point, and a lamp with an extent one in its middle; shadows in the light of lamps that comes by way of the surface are found by
-//! looking at 32 places of a view ray.
+//! looking at 32 places of a view ray. Level and upward view rays, and those that end at things in deep water, get too little light that was scattered
+//! more than once. With waves, light takes flat paths within twice the sum of their heights of the level; shadows are asked for once for each 4 × 4 cells of the
+//! surface; and below some 12° of elevation the facet that shows of a wind's waves is near the first one met, not it.
 //!
 //! ```
 //! use glam::DVec3;

@@ -4,8 +4,9 @@ use std::fmt;
 
 use scene::Scene;
 
-use super::{Maps, Standing};
+use super::{Maps, Standing, interreflection};
 use crate::Error;
+use crate::knobs::Settings;
 use crate::pipeline::{Pipeline, Source};
 use crate::plan::Plan;
 
@@ -70,12 +71,14 @@ impl Measuring {
     /// As [`super::assemble`].
     pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
         let standing = Standing::new(plan, scene)?;
-        let warnings = standing.warnings(scene);
-        let whole = standing.light(plan, scene, &mut Maps::default());
-        let interreflected = standing.interreflected(plan, scene, &whole);
-        let coarser = match interreflected {
-            Some(_) => Standing::new(&coarser(plan)?, scene)?.interreflected(&coarser(plan)?, scene, &whole),
-            None => None,
+        let (interreflected, coarser) = match interreflection::asked(&plan.settings) {
+            true => {
+                let whole = standing.light(plan, scene, &mut Maps::default());
+                let coarse = standing.linked(&coarser(plan)?, scene, &whole);
+                let coarse = coarse.source(&plan.settings, &whole, &*standing.occlude);
+                (standing.interreflected(plan, scene, &whole), Some(coarse))
+            }
+            false => (None, None),
         };
         let mut parts = standing.light_by_ways(plan, scene);
         parts.extend(interreflected.map(|source| (source, Way::Interreflected)));
@@ -86,12 +89,13 @@ impl Measuring {
                 (source, column)
             })
             .unzip();
-        Ok(Self { pipeline: standing.pipeline(plan, scene, sources.into())?, columns, coarser, warnings })
+        let pipeline = standing.pipeline(plan, scene, sources.into())?;
+        Ok(Self { pipeline, columns, coarser, warnings: standing.warnings })
     }
 }
 
-/// The plan with fewer patches.
-fn coarser(plan: &Plan) -> Result<Plan, Error> {
+/// The settings with fewer patches.
+fn coarser(plan: &Plan) -> Result<Settings, Error> {
     let mut settings = plan.settings.clone();
     let [fewer, longer] = COARSER;
     let most = (f64::from(settings.integer("interreflection.patches")) / fewer).max(16.0) as u32;
@@ -100,5 +104,5 @@ fn coarser(plan: &Plan) -> Result<Plan, Error> {
         let edge = (edge * longer).min(1e6);
         settings.set("interreflection.patch", &edge.to_string(), "keikan lux")?;
     }
-    Ok(Plan { settings, ..plan.clone() })
+    Ok(settings)
 }

@@ -21,6 +21,7 @@ use scanline::{Knobs, Localised, Rule, Scanline, Shading};
 use scene::{Camera, Scene};
 
 use crate::Error;
+use crate::knobs::Settings;
 use crate::pipeline::{Count, Limits, Pipeline, Source};
 use crate::plan::Plan;
 use crate::shadows::NUMBERED;
@@ -56,6 +57,8 @@ pub struct Standing {
     waters: Option<Waters>,
     /// What faces see of each other, once that has been asked for.
     linked: OnceLock<Linked>,
+    /// What only building can find to be unusual, in words.
+    pub warnings: Vec<String>,
 }
 
 impl Standing {
@@ -78,13 +81,9 @@ impl Standing {
         }));
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
-        Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new() })
-    }
-
-    /// What only building can find to be unusual, in words.
-    pub fn warnings(&self, scene: &Scene) -> Vec<String> {
-        let flat = self.waters.as_ref().map(|waters| &**waters.flat());
-        banks::warnings(scene, flat.unwrap_or_default(), self.traced.first())
+        let flat = waters.as_ref().map(|waters| &**waters.flat());
+        let warnings = banks::warnings(scene, flat.unwrap_or_default(), traced.first());
+        Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new(), warnings })
     }
 
     /// The scene's primary sources; `maps` have what is known of the sky's light, and keep what becomes known.
@@ -113,15 +112,20 @@ impl Standing {
     pub fn interreflected(&self, plan: &Plan, scene: &Scene, sources: &[Source]) -> Option<Source> {
         let settings = &plan.settings;
         interreflection::asked(settings).then(|| {
-            let among = Among {
-                nearest: self.traced.first(),
-                occlude: &*self.occlude,
-                seen: &self.traced.seen,
-                waters: self.waters.as_ref().map(Waters::flat),
-            };
-            let linked = self.linked.get_or_init(|| Linked::new(scene, settings, among, sources));
+            let linked = self.linked.get_or_init(|| self.linked(settings, scene, sources));
             linked.source(settings, sources, &*self.occlude)
         })
+    }
+
+    /// What faces see of each other.
+    fn linked(&self, settings: &Settings, scene: &Scene, sources: &[Source]) -> Linked {
+        let among = Among {
+            nearest: self.traced.first(),
+            occlude: &*self.occlude,
+            seen: &self.traced.seen,
+            waters: self.waters.as_ref().map(Waters::flat),
+        };
+        Linked::new(scene, settings, among, sources)
     }
 
     /// All stages of one picture.

@@ -5,7 +5,7 @@ use std::fmt;
 use light::Spectrum;
 use scene::{MeasuredWater, WaterPhase, WaterQuality};
 use water::quality::{FRESH, Measured, names};
-use water::{Phase, PhaseError, QualityError, Water};
+use water::{Loss, Phase, PhaseError, QualityError, Water};
 
 use crate::Error;
 
@@ -72,6 +72,11 @@ impl Optics {
             ("diffuse K = a+bb", water.diffuse()),
             ("daylight Kd", water.daylight()),
         ]
+    }
+
+    /// Length over which 1/e is left of an image (1/c), and of daylight (1/K_d) \[m\]; infinite where nothing is lost.
+    pub(crate) fn reaches(&self) -> [Spectrum; 2] {
+        [self.water.reach(Loss::Beam), self.water.daylight().map(|k| 1.0 / k)]
     }
 
     /// Single-scattering albedo b/c.

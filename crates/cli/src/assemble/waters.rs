@@ -99,8 +99,8 @@ impl Waters {
             Some(setting) => {
                 let sun = scene.sun.as_ref().filter(|_| name == SUN);
                 let disc = sun.map_or(0.0, |sun| 0.5 * sun.diameter.to_radians());
-                let how = (self.rules, Setting { disc, ..setting });
-                Box::new(Beams::new(inner, kind, waters, &self.waves, how).only(part))
+                let how = (self.rules, Setting { disc, ..setting }, part);
+                Box::new(Beams::new(inner, kind, waters, &self.waves, how))
             }
             None => Box::new(Lit::new(Box::new(inner), kind, waters, self.rules).only(part)),
         }

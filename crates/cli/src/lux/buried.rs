@@ -4,7 +4,8 @@ use glam::Vec3;
 use light::{Nearest, Place, Ray};
 use scene::Scene;
 
-use super::{Table, place};
+use super::table::by_sensor;
+use super::{Row, Table, place};
 
 /// Directions that are looked into.
 const DIRECTIONS: u32 = 32;
@@ -12,15 +13,11 @@ const DIRECTIONS: u32 = 32;
 /// A warning for each sensor with dark points around which there is nothing but the backs of faces: they seem to lie inside
 /// of a wall.
 pub fn buried(scene: &Scene, nearest: &dyn Nearest, table: &Table) -> Vec<String> {
-    let of = |sensor: &scene::Sensor| {
-        let dark = |point: usize| {
-            table.rows.iter().any(|row| row.sensor == sensor.name && row.point == point && row.total == 0.0)
-        };
-        let inside: Vec<usize> = (0..sensor.points.len())
-            .filter(|&point| dark(point))
-            .filter(|&point| {
-                is_inside(nearest, &place(sensor.points[point], sensor.normal.as_vec3(), point as u32))
-            })
+    let of = |(sensor, rows): (&scene::Sensor, &[Row])| {
+        let dark = rows.iter().filter(|row| row.total == 0.0).map(|row| row.point);
+        let normal = sensor.normal.as_vec3();
+        let inside: Vec<usize> = dark
+            .filter(|&point| is_inside(nearest, &place(sensor.points[point], normal, point as u32)))
             .collect();
         let first = inside.first()?;
         let at = (sensor.points[*first] + scene.origin).to_array();
@@ -32,7 +29,7 @@ pub fn buried(scene: &Scene, nearest: &dyn Nearest, table: &Table) -> Vec<String
             sensor.points.len()
         ))
     };
-    scene.sensors.iter().filter_map(of).collect()
+    by_sensor(scene, &table.rows).filter_map(of).collect()
 }
 
 fn is_inside(nearest: &dyn Nearest, place: &Place) -> bool {

@@ -19,8 +19,9 @@ pub struct Row {
     /// All together \[lx\].
     pub total: f64,
     /// Estimated standard error of that \[lx\]: what sampling leaves (sky, sun's disc, lamps with an extent), found by asking anew
-    /// with other directions, and what patches leave (interreflection), found by coarser ones. What models leave is not in
-    /// it. None where it was not asked for.
+    /// with other directions, and what patches leave (interreflection), found by coarser ones. Not in it: what models leave; the
+    /// directions in which the sky, and the points at which lamps with an extent, are looked for *through a water surface*, which stand
+    /// still; and patches where the faces alone are as many as patches may be. None where it was not asked for.
     pub error: Option<f64>,
     /// By way \[lx\], in the order of [`Table::ways`].
     pub by_way: Vec<f64>,
@@ -81,8 +82,8 @@ impl Table {
             row.total = row.parts.iter().sum();
             row.by_way = ways.iter().map(|way| row.along(&columns, *way)).collect();
         }
-        let several = scene.sensors.iter().filter(|sensor| sensor.points.len() > 1);
-        let uniformity = several.map(|sensor| Uniformity::of(&sensor.name, &rows)).collect();
+        let several = by_sensor(scene, &rows).filter(|(_, rows)| rows.len() > 1);
+        let uniformity = several.map(|(sensor, rows)| Uniformity::of(&sensor.name, rows)).collect();
         Self { ways, columns, rows, uniformity }
     }
 
@@ -97,9 +98,22 @@ impl Table {
     }
 }
 
+/// Each sensor with its rows, which are in the scene's order.
+pub(super) fn by_sensor<'a>(
+    scene: &'a Scene,
+    rows: &'a [Row],
+) -> impl Iterator<Item = (&'a Sensor, &'a [Row])> {
+    let mut left = rows;
+    scene.sensors.iter().map(move |sensor| {
+        let (own, others) = left.split_at(sensor.points.len().min(left.len()));
+        left = others;
+        (sensor, own)
+    })
+}
+
 impl Uniformity {
     fn of(name: &str, rows: &[Row]) -> Self {
-        let totals: Vec<f64> = rows.iter().filter(|row| row.sensor == name).map(|row| row.total).collect();
+        let totals: Vec<f64> = rows.iter().map(|row| row.total).collect();
         let mean = super::mean(totals.iter().copied());
         let minimum = totals.iter().copied().fold(f64::INFINITY, f64::min);
         let maximum = totals.iter().copied().fold(0.0, f64::max);

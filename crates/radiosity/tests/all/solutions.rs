@@ -1,7 +1,9 @@
 //! Light in rooms: furnaces, energy, orders, and the slow reference.
 
 use glam::{DVec3, Vec3};
-use keikan_radiosity::{Between, Linking, Links, Orders, Patches, Solution, Source, reference::Dense, solve};
+use keikan_radiosity::{
+    Between, Linking, Links, Obstacles, Orders, Patches, Solution, Source, reference::Dense, solve,
+};
 use light::{Occlude, Spectrum, Vacuum};
 use proptest::prelude::*;
 
@@ -117,6 +119,25 @@ fn links_agree_with_the_slow_reference() {
             let off = (sum / truth.len() as f64).sqrt() / mean;
             assert!(off < bound, "share {share}: {off}");
         }
+    }
+}
+
+#[test]
+fn links_that_know_where_nothing_is_are_those_that_try() {
+    // Where surely nothing is, every way that is tried arrives: the shares are the same, but for the rounding of means of ones, 4 u each.
+    let room = Room::furnished();
+    let patches = room.patches(0.6, 0.5);
+    let dry = Between::dry(&room.boxes);
+    let obstacles = Obstacles::new(&room.geometry);
+    let lit: Vec<Spectrum> = (0..patches.len()).map(|i| Spectrum::splat(1.0 + (i % 7) as f32)).collect();
+    let light = |between: &Between<'_>| {
+        let links = Links::new(&patches, between, &Linking::default());
+        (links.len(), links.irradiance(&patches, &lit))
+    };
+    let (trying, knowing) = (light(&dry), light(&Between { obstacles: Some(&obstacles), ..dry }));
+    assert_eq!(trying.0, knowing.0);
+    for (tried, known) in trying.1.iter().zip(&knowing.1) {
+        assert!((tried[0] - known[0]).abs() <= 1e-5 * tried[0], "{} {}", tried[0], known[0]);
     }
 }
 

@@ -16,8 +16,8 @@ pub(crate) struct Fan {
     pub(crate) d: DVec3,
     /// Where the source is; none for a sun.
     pub(crate) lamp: Option<DVec3>,
-    /// Where light begins, if it is not the source: gradient of what is positive before, and its value at the origin.
-    pub(crate) ceiling: Option<(DVec3, f64)>,
+    /// Height from below which things are in the way, if light does not come from farther up.
+    pub(crate) ceiling: Option<f64>,
     /// Normal of the plane, of any length.
     pub(crate) normal: DVec3,
     /// Gradients of `along` and `height`: the basis dual to d and e within the plane.
@@ -86,7 +86,7 @@ impl Fan {
             PointSource::Toward(toward) | PointSource::Below { toward, .. } => (toward, None),
         };
         let ceiling = match *source {
-            PointSource::Below { level, .. } => Some((DVec3::NEG_Y, level)),
+            PointSource::Below { level, .. } => Some(level),
             _ => None,
         };
         let normal = d.cross(e);
@@ -106,7 +106,7 @@ impl Fan {
             height: self.height.dot(from),
             // From the source itself, so that it keeps its digits near by.
             room: self.lamp.map_or(1.0, |lamp| self.height.dot(lamp - at)),
-            below: self.ceiling.map_or(1.0, |(gradient, offset)| gradient.dot(at) + offset),
+            below: self.ceiling.map_or(1.0, |level| level - at.y),
         }
     }
 

@@ -107,7 +107,7 @@ impl Sieve {
                 }
             }
         }
-        if let Some((_, level)) = fan.ceiling {
+        if let Some(level) = fan.ceiling {
             high.y = high.y.min(level);
         }
         // A lamp far away is rounded by more than the padding knows: outwards with it.

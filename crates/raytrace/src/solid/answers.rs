@@ -1,8 +1,8 @@
 //! What the rest of the house asks of bodies.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::DVec3;
 use light::{
-    Bodies, Hit, Hull, Nearest, Occlude, Path, Place, PointSource, Ray, Spectrum, Stretch, rounding::UNIT,
+    Bodies, Hit, Hull, Nearest, Occlude, Place, PointSource, Ray, Spectrum, Stretch, rounding::UNIT,
 };
 
 use crate::transmit;
@@ -75,21 +75,13 @@ impl Solids {
             seed: 0,
         };
         Hit {
-            place,
-            shading_normal: normal,
-            toward_eye: -ray.direction,
-            distance: crossing.t as f32,
-            uv: Vec2::ZERO,
-            tangent: Vec3::ZERO,
             width,
             curvature: compound.members[wall.member as usize].curvature(wall.end.face, position) as f32,
-            uv_density: 0.0,
-            vertex_colour: Vec3::ONE,
             instance: self.first_instance + body,
             triangle: wall.member,
             material: crossing.material,
             front: crossing.entering,
-            path: Path::EYE,
+            ..Hit::plain(place, -ray.direction, crossing.t as f32)
         }
     }
 }
@@ -132,22 +124,11 @@ impl Solids {
         let members = self.bodies.get(body as usize).map(|ready| &ready.compound.members);
         let position = (line.0 + line.1 * distance).as_vec3();
         let normal = -ray.direction;
+        let place = Place { position, error: UNIT * position.abs().max_element(), normal, seed: 0 };
         Hit {
-            place: Place { position, error: UNIT * position.abs().max_element(), normal, seed: 0 },
-            shading_normal: normal,
-            toward_eye: normal,
-            distance: distance as f32,
-            uv: Vec2::ZERO,
-            tangent: Vec3::ZERO,
-            width: 0.0,
-            curvature: 0.0,
-            uv_density: 0.0,
-            vertex_colour: Vec3::ONE,
             instance: self.first_instance.saturating_add(body),
-            triangle: 0,
             material: members.and_then(|members| members.first()).map_or(0, |member| member.material),
-            front: true,
-            path: Path::EYE,
+            ..Hit::plain(place, normal, distance as f32)
         }
     }
 }

@@ -27,7 +27,7 @@ impl Surface {
 mod tests {
     use std::f32::consts::TAU;
 
-    use glam::{Vec2, Vec3};
+    use glam::Vec3;
     use light::{Arrival, Path, Place, Ray, Shade, Surroundings};
 
     use super::*;
@@ -47,23 +47,7 @@ mod tests {
     }
 
     fn seen_from(toward_eye: Vec3) -> Hit {
-        Hit {
-            place: Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 },
-            shading_normal: Vec3::Y,
-            toward_eye,
-            distance: 1.0,
-            uv: Vec2::ZERO,
-            tangent: Vec3::ZERO,
-            width: 0.0,
-            curvature: 0.0,
-            uv_density: 0.0,
-            vertex_colour: Vec3::ONE,
-            instance: 0,
-            triangle: 0,
-            material: 0,
-            front: true,
-            path: Path::EYE,
-        }
+        Hit::plain(Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 }, toward_eye, 1.0)
     }
 
     #[test]

@@ -127,18 +127,13 @@ impl Finish {
 /// faces it fades over the last degrees (Chiang, Li and Burley 2019); that factor alone is not reciprocal.
 ///
 /// ```
-/// use glam::{DVec3, Vec2, Vec3};
+/// use glam::Vec3;
 /// use keikan_raytrace::surface::{Finish, Surface};
-/// use light::{Hit, Path, Place, check::furnace};
+/// use light::{Hit, Place, check::furnace};
 ///
 /// let white = Surface::new(Finish { roughness: 0.5, ..Finish::default() });
-/// let hit = Hit {
-///     place: Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 },
-///     shading_normal: Vec3::Y,
-///     toward_eye: Vec3::new(0.6, 0.8, 0.0),
-///     distance: 1.0, uv: Vec2::ZERO, tangent: Vec3::ZERO, width: 0.0, curvature: 0.0, uv_density: 0.0, vertex_colour: Vec3::ONE,
-///     instance: 0, triangle: 0, material: 0, front: true, path: Path::EYE,
-/// };
+/// let place = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };
+/// let hit = Hit::plain(place, Vec3::new(0.6, 0.8, 0.0), 1.0);
 /// let share = furnace(&white, &hit);
 /// assert!((share[0] - 1.0).abs() < 1e-3); // white: everything comes back (spectra of white are 1 to 1e-3)
 /// ```

@@ -15,23 +15,8 @@ fn direction(cos: f32, turn: f32) -> Vec3 {
 
 /// A hit on a horizontal face.
 fn hit(toward_eye: Vec3) -> Hit {
-    Hit {
-        place: Place { position: Vec3::ZERO, error: 1e-6, normal: Vec3::Y, seed: 0 },
-        shading_normal: Vec3::Y,
-        toward_eye,
-        distance: 1.0,
-        uv: Vec2::splat(0.5),
-        tangent: Vec3::X,
-        width: 0.0,
-        curvature: 0.0,
-        uv_density: 0.0,
-        vertex_colour: Vec3::ONE,
-        instance: 0,
-        triangle: 0,
-        material: 0,
-        front: true,
-        path: Path::EYE,
-    }
+    let place = Place { position: Vec3::ZERO, error: 1e-6, normal: Vec3::Y, seed: 0 };
+    Hit { uv: Vec2::splat(0.5), tangent: Vec3::X, ..Hit::plain(place, toward_eye, 1.0) }
 }
 
 /// Light of radiance 1 from all around, sent as beams; mirror rays see it as well.

@@ -23,9 +23,9 @@ pub(crate) struct WaterTable {
     pub(crate) model: Option<String>,
     /// Which water: `clear`, which absorbs and scatters nothing, or one by name such as `pool`, `sea` or `jerlov-3C`. Default `pool`.
     pub(crate) quality: Option<String>,
-    /// Which water: depth at which a white disc vanishes [m], 0.1 to 80.
+    /// Which water: depth at which a white disc vanishes [m]: that of chlorophyll 100 down to 0 mg/m³, 1.4 to 208.
     pub(crate) secchi: Option<f64>,
-    /// Which water: chlorophyll [mg/m³], 0.01 to 30.
+    /// Which water: chlorophyll [mg/m³], 0 to 100.
     pub(crate) chlorophyll: Option<f64>,
     /// Absorption a: [[wavelength in nm, 1/m], …], rising.
     pub(crate) absorption: Option<Vec<[f64; 2]>>,

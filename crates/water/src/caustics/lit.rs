@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
 use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
 use super::{Beam, BeamMap};
-use crate::flat::{FlatWater, Lit, Part, Rules, Source};
+use crate::flat::{FlatWater, Lit, Part, Rules, Source, beams_on, on_surface};
 use crate::waves::Waves;
 use crate::{Loss, Way};
 
@@ -23,7 +22,8 @@ pub struct Setting {
 
 /// The sun, or a lamp in air, with wavy water around: through and off the waves by beams; elsewhere as by flat water ([`Lit`]).
 ///
-/// Within twice the waves' height of the level of rest light takes the flat paths. Shadows are asked for on both legs once for each
+/// Within twice the sum of all waves' heights of the level of rest light takes the flat paths (in the seas of a strong wind that is some
+/// metres), and so does that of lamps that hang lower than that sum. Shadows are asked for on both legs once for each
 /// leaf of beams, at the surface point that its light comes from on average.
 pub struct Beams {
     inner: Arc<dyn Illuminate>,
@@ -34,27 +34,27 @@ pub struct Beams {
     /// Those that are not.
     wavy: Vec<Wavy>,
     width: f64,
-    part: Part,
 }
 
 /// A water with waves, and its beams.
 struct Wavy {
     water: FlatWater,
-    through: BeamMap,
-    mirrored: BeamMap,
+    /// None where this part of the light is not asked for.
+    through: Option<BeamMap>,
+    mirrored: Option<BeamMap>,
     /// How far from the level beams begin \[m\].
     near: f64,
 }
 
 impl Beams {
-    /// `inner`, which is a `source`, with these waters around, each with its waves. Waters at rest, and sources from all around or below
-    /// the crests, are left to [`Lit`].
+    /// A `part` of the light of `inner`, which is a `source`, with these waters around, each with its waves; the parts add up to
+    /// [`Part::All`]. Waters at rest, and sources from all around, with an extent or below the crests, are left to [`Lit`].
     pub fn new(
         inner: Arc<dyn Illuminate>,
         source: Source,
         waters: Arc<[FlatWater]>,
         waves: &[Arc<Waves>],
-        (rules, setting): (Rules, Setting),
+        (rules, setting, part): (Rules, Setting, Part),
     ) -> Self {
         let shines = |water: &FlatWater, waves: &Waves| match source {
             Source::Toward(toward) => toward.y > 0.0,
@@ -68,17 +68,13 @@ impl Beams {
                 continue;
             };
             let fine = (shortest / setting.cells, setting.disc);
-            let map = |way| BeamMap::new(water, waves, source, way, fine);
-            let (through, mirrored) = (map(Way::Refracted), map(Way::Mirrored));
+            let map = |of, way| part.has(of).then(|| BeamMap::new(water, waves, source, way, fine));
+            let (through, mirrored) =
+                (map(Part::Through, Way::Refracted), map(Part::Reflected, Way::Mirrored));
             wavy.push(Wavy { water: water.clone(), through, mirrored, near: 2.0 * waves.highest() });
         }
-        let by = |waters| Lit::new(Box::new(Arc::clone(&inner)), source, waters, rules);
-        Self { flat: by(waters), calm: by(calm.into()), inner, wavy, width: setting.width, part: Part::All }
-    }
-
-    /// Only one part of its light: the parts add up to [`Part::All`].
-    pub fn only(self, part: Part) -> Self {
-        Self { flat: self.flat.only(part), calm: self.calm.only(part), part, ..self }
+        let by = |waters| Lit::new(Box::new(Arc::clone(&inner)), source, waters, rules).only(part);
+        Self { flat: by(waters), calm: by(calm.into()), inner, wavy, width: setting.width }
     }
 
     /// By one water's beams, those that its waves let through or those that they mirror.
@@ -96,19 +92,12 @@ impl Beams {
 
     /// What one beam brings, past what is in its way.
     fn arrival(&self, beam: &Beam, at: &At<'_>) -> Option<Arrival> {
-        let position = beam.from.as_vec3();
-        let error = 4.0 * f32::EPSILON * position.abs().max_element() + f32::MIN_POSITIVE;
-        let surface = Place { position, error, normal: Vec3::Y, seed: at.place.seed };
-        let seen = at.occlude.transmittance(&at.place.toward(position));
+        let surface = on_surface(beam.from, at.place.seed);
+        let seen = at.occlude.transmittance(&at.place.toward(surface.position));
         if seen.is_zero() {
             return None;
         }
-        let mut there = Spectrum::ZERO;
-        self.inner.arrivals(&surface, at.occlude, &mut |arrival| {
-            if let Arrival::Beam { irradiance, .. } = arrival {
-                there += irradiance;
-            }
-        });
+        let there = beams_on(&*self.inner, &surface, at.occlude);
         let length = beam.from.distance(at.place.position.as_dvec3());
         let facing = beam.level / beam.toward.y.abs();
         let irradiance = there * seen * at.loss.attenuate(length as f32) * facing as f32;
@@ -145,17 +134,16 @@ impl Illuminate for Beams {
         let under = |wavy: &&Wavy| wavy.water.depth(point).is_some_and(|depth| depth > 0.0);
         if let Some(wavy) = self.wavy.iter().find(under) {
             let loss = wavy.water.water.loss(Loss::Diffuse);
-            if self.part.has(Part::Through) {
-                self.give(&wavy.through, &At { place, occlude, loss }, receive);
+            if let Some(through) = &wavy.through {
+                self.give(through, &At { place, occlude, loss }, receive);
             }
             return;
         }
         self.calm.arrivals_on(face, place, occlude, receive);
-        if !self.part.has(Part::Reflected) {
-            return;
-        }
-        for wavy in self.wavy.iter().filter(|wavy| above(wavy) > 0.0) {
-            self.give(&wavy.mirrored, &At { place, occlude, loss: Spectrum::ZERO }, receive);
+        for mirrored in
+            self.wavy.iter().filter(|wavy| above(wavy) > 0.0).filter_map(|wavy| wavy.mirrored.as_ref())
+        {
+            self.give(mirrored, &At { place, occlude, loss: Spectrum::ZERO }, receive);
         }
     }
 

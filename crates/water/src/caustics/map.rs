@@ -57,15 +57,11 @@ pub struct BeamMap {
 }
 
 impl BeamMap {
-    /// Of a source that is seen from the surface within `disc` \[rad\] of its middle, by a `way` that is no direct one, in cells of `step` \[m\].
+    /// Of a source above the surface that is seen from it within `disc` \[rad\] of its middle, by a `way` that is no direct one, in cells of `step` \[m\].
     pub fn new(water: &FlatWater, waves: &Waves, source: Source, way: Way, (step, disc): (f64, f64)) -> Self {
         let [low, high] = water.extent();
         let grid = Grid::new(low, high, step);
-        let from_above = match source {
-            Source::At(lamp) => !water.surface.is_below(lamp),
-            _ => true,
-        };
-        let turn = Turn { surface: water.surface, source, way, from_above };
+        let turn = Turn { surface: water.surface, source, way };
         let footprint = Covariance::even(grid.step.max_element());
         let [across, along] = grid.corners();
         let row = |j| (0..across).map(move |i| [i, j]);
@@ -85,17 +81,12 @@ impl BeamMap {
             [height, x, z]
         };
         let tree = Tree::new(&grid, bounded, |[i, j]| lit[j * columns + i] != 0);
-        let down = from_above == (way == Way::Refracted);
-        let bend = match way {
-            Way::Refracted if from_above => 1.0 / water.surface.index,
-            Way::Refracted => water.surface.index,
-            _ => 1.0,
-        };
+        let bend = if turn.is_down() { 1.0 / water.surface.index } else { 1.0 };
         Self {
             surface: water.surface,
             source,
             tree,
-            down,
+            down: turn.is_down(),
             blur: SQUARE_OF_DISC * disc * bend,
             lit,
             rays,
@@ -162,12 +153,7 @@ impl BeamMap {
             Source::Toward(toward) => toward,
             Source::Around | Source::Area(_) => DVec3::ZERO,
         };
-        // Light from below meets the other side of what looks up.
-        let up = match self.source {
-            Source::At(lamp) if self.surface.is_below(lamp) => -1.0,
-            _ => 1.0,
-        };
-        (area.dot(toward) * if area.y < 0.0 { -up } else { up }).max(0.0)
+        (area.dot(toward) * area.y.signum()).max(0.0)
     }
 }
 
@@ -193,10 +179,14 @@ struct Turn {
     surface: Surface,
     source: Source,
     way: Way,
-    from_above: bool,
 }
 
 impl Turn {
+    /// Whether light goes on downwards.
+    fn is_down(&self) -> bool {
+        self.way == Way::Refracted
+    }
+
     /// The ray that leaves the surface at x, z.
     fn ray(&self, at: DVec2, waves: &Waves, footprint: Covariance) -> Ray {
         let facet = waves.facet(at, footprint);
@@ -206,11 +196,9 @@ impl Turn {
             Source::At(lamp) => (lamp - point).normalize_or_zero(),
             Source::Around | Source::Area(_) => DVec3::Y,
         };
-        let normal = if self.from_above { facet.normal() } else { -facet.normal() };
-        let (left, share) = self.leaves(toward, normal);
+        let (left, share) = self.leaves(toward, facet.normal());
         let lost = Ray { height: facet.height as f32, lean: [0.0; 2], share: -1.0 };
-        let down = self.from_above == (self.way == Way::Refracted);
-        let drop = if down { -left.y } else { left.y };
+        let drop = if self.is_down() { -left.y } else { left.y };
         let steep_enough = drop * LEANEST > DVec2::new(left.x, left.z).length();
         if !steep_enough {
             return lost;
@@ -221,18 +209,17 @@ impl Turn {
     /// Where light goes that comes from unit vector `toward`, and what share of it.
     fn leaves(&self, toward: DVec3, normal: DVec3) -> (DVec3, f64) {
         let n = self.surface.index;
-        let eta = if self.from_above { n } else { 1.0 / n };
         // What comes from behind a wave's crest does not arrive: `facing` has none of it.
         let cos = toward.dot(normal).clamp(0.0, 1.0);
         match self.way {
-            Way::Refracted => match refract(-toward, normal, eta) {
+            Way::Refracted => match refract(-toward, normal, n) {
                 Some(direction) => {
                     let inside = -direction.dot(normal);
-                    (direction, transmitted(eta, cos, inside))
+                    (direction, transmitted(n, cos, inside))
                 }
                 None => (DVec3::ZERO, 0.0),
             },
-            _ => (reflect(-toward, normal), fresnel(eta, cos)),
+            _ => (reflect(-toward, normal), fresnel(n, cos)),
         }
     }
 }

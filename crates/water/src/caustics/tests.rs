@@ -5,7 +5,7 @@ use light::{Illuminate, Luminaire, Mesh, Place, Spectrum, Vacuum};
 use proptest::prelude::*;
 
 use super::*;
-use crate::flat::{FlatWater, Lit, Rules, Source};
+use crate::flat::{FlatWater, Lit, Part, Rules, Source};
 use crate::waves::{Stokes, Waves};
 use crate::{SunBelow, Water, Way};
 
@@ -262,8 +262,13 @@ fn lamp(at: DVec3, waves: Waves, points: &[DVec3]) -> Vec<[f64; 2]> {
     let setting = Setting { cells: 32.0, width: 0.0, disc: 0.0 };
     let source = Source::At(at);
     let flat = Lit::new(Box::new(lamp()), source, std::sync::Arc::clone(&waters), Rules::default());
-    let beams =
-        Beams::new(std::sync::Arc::new(lamp()), source, waters, &[waves.into()], (Rules::default(), setting));
+    let beams = Beams::new(
+        std::sync::Arc::new(lamp()),
+        source,
+        waters,
+        &[waves.into()],
+        (Rules::default(), setting, Part::All),
+    );
     let irradiance = |by: &dyn Illuminate, position: &DVec3| {
         let place = Place { position: position.as_vec3(), error: 0.0, normal: Vec3::Y, seed: 0 };
         f64::from(by.irradiance(&place, &Vacuum)[3])

@@ -28,6 +28,17 @@ pub enum Source {
     Around,
 }
 
+impl Source {
+    /// Where a lamp is; none for what is far away.
+    fn lamp(&self) -> Option<DVec3> {
+        match self {
+            Self::At(at) => Some(*at),
+            Self::Area(lamp) => Some(lamp.centre.as_dvec3()),
+            Self::Toward(_) | Self::Around => None,
+        }
+    }
+}
+
 /// Which part of a source's light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Part {
@@ -74,6 +85,8 @@ pub struct Lit {
     pub(super) inner: Box<dyn Illuminate>,
     pub(super) source: Source,
     waters: Arc<[FlatWater]>,
+    /// Which of them its lamp is in.
+    lamp_in: Option<usize>,
     pub(super) rules: Rules,
     pub(super) part: Part,
     held: Vec<Held>,
@@ -103,7 +116,10 @@ impl Lit {
             }
         };
         let held = waters.iter().map(held).collect();
-        Self { inner, source, waters, rules, part: Part::All, held }
+        let holds =
+            |lamp: DVec3| waters.iter().position(|water| water.depth(lamp).is_some_and(|depth| depth > 0.0));
+        let lamp_in = source.lamp().and_then(holds);
+        Self { inner, source, waters, lamp_in, rules, part: Part::All, held }
     }
 
     /// Only one part of its light: the parts add up to [`Part::All`].
@@ -115,15 +131,6 @@ impl Lit {
     fn under(&self, point: DVec3) -> Option<(usize, f64)> {
         let depths = self.waters.iter().enumerate();
         depths.filter_map(|(i, water)| Some((i, water.depth(point)?))).find(|(_, depth)| *depth > ON)
-    }
-
-    /// Where a lamp is; none for what is far away.
-    pub(super) fn lamp(&self) -> Option<DVec3> {
-        match self.source {
-            Source::At(at) => Some(at),
-            Source::Area(lamp) => Some(lamp.centre.as_dvec3()),
-            Source::Toward(_) | Source::Around => None,
-        }
     }
 
     /// How many points its lamp shines from.
@@ -155,7 +162,7 @@ impl Lit {
             Source::Around => {}
             Source::Toward(toward) => at.sun_below(receive, self, toward),
             Source::At(_) | Source::Area(_) => {
-                let lamp = self.lamp().unwrap_or_default();
+                let lamp = self.source.lamp().unwrap_or_default();
                 if at.water.surface.is_below(lamp) && self.part.has(Part::Direct) {
                     let left = at.left(lamp.distance(at.place.position.as_dvec3()));
                     self.inner.arrivals(at.place, at.occlude, &mut |arrival| {
@@ -217,11 +224,7 @@ impl Illuminate for Lit {
         if let Some((i, depth)) = self.under(place.position.as_dvec3()) {
             return self.below(i, &At { water: &self.waters[i], place, depth, occlude }, receive);
         }
-        let lamp = self.lamp();
-        let lamp_in = self
-            .waters
-            .iter()
-            .position(|water| lamp.is_some_and(|lamp| water.depth(lamp).is_some_and(|depth| depth > 0.0)));
+        let (lamp, lamp_in) = (self.source.lamp(), self.lamp_in);
         if lamp_in.is_none() && self.part.has(Part::Direct) {
             self.inner.arrivals_on(face, place, occlude, receive);
         }

@@ -13,9 +13,11 @@ mod window;
 
 pub use fill::Fill;
 pub use lit::{Lit, Part, Source};
+pub(crate) use points::beams_on;
 pub use region::FlatWater;
 pub use rules::{Along, Rules, Scattered};
 pub use shade::SurfaceShade;
+pub(crate) use shafts::on_surface;
 
 #[cfg(test)]
 mod tests;

@@ -18,6 +18,17 @@ enum Shines<'a> {
     Part { intensity: Spectrum, area: f32, facing: Option<Vec3> },
 }
 
+/// What arrives in beams at a place, on planes that face them \[W m⁻² nm⁻¹\].
+pub(crate) fn beams_on(source: &dyn Illuminate, place: &Place, occlude: &dyn Occlude) -> Spectrum {
+    let mut sum = Spectrum::ZERO;
+    source.arrivals(place, occlude, &mut |arrival| {
+        if let Arrival::Beam { irradiance, .. } = arrival {
+            sum += irradiance;
+        }
+    });
+    sum
+}
+
 impl<'a> Point<'a> {
     /// A luminaire.
     pub(super) fn luminaire(at: DVec3, says: &'a dyn Illuminate) -> Self {
@@ -52,15 +63,7 @@ impl<'a> Point<'a> {
     /// Of a part of an area L A cos/(d² + A/π): what a disc gives on its axis, and bounded by π L.
     pub(super) fn facing(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
         match &self.shines {
-            Shines::AsItSays(source) => {
-                let mut sum = Spectrum::ZERO;
-                source.arrivals(place, occlude, &mut |arrival| {
-                    if let Arrival::Beam { irradiance, .. } = arrival {
-                        sum += irradiance;
-                    }
-                });
-                sum
-            }
+            Shines::AsItSays(source) => beams_on(*source, place, occlude),
             Shines::Part { intensity, area, facing } => {
                 let way = self.at.as_vec3() - place.position;
                 let distance2 = way.length_squared();

@@ -80,7 +80,7 @@ impl Parallel {
 }
 
 /// A point of the surface, as a place.
-pub(super) fn on_surface(point: DVec3, seed: u32) -> Place {
+pub(crate) fn on_surface(point: DVec3, seed: u32) -> Place {
     let position = point.as_vec3();
     let error = 4.0 * f32::EPSILON * position.abs().max_element() + f32::MIN_POSITIVE;
     Place { position, error, normal: Vec3::Y, seed }

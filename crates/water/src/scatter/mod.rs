@@ -24,7 +24,6 @@ use light::Spectrum;
 pub use lamp::{LAMP_TOLERANCE, Light};
 pub use sky::ScatteredSky;
 pub use steps::{Stepped, Steps};
-pub use sun::lit_intervals;
 
 use crate::{Loss, Surface, Water};
 

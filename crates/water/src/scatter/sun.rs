@@ -1,6 +1,6 @@
 //! The sun's light scattered once along a view ray.
 
-use light::{Spectrum, Stretch};
+use light::Spectrum;
 
 use super::fade::fading;
 use super::{Scattering, ViewRay};
@@ -9,7 +9,7 @@ use crate::SunBelow;
 impl Scattering {
     /// Radiance at P of the sun's light scattered along `ray`, where it is lit \[W m⁻² sr⁻¹ nm⁻¹\] (thesis 3.30, 3.31).
     ///
-    /// `lit` are distances along the ray \[m\], from and to; see [`lit_intervals`]. With θ' the sun's and θ_j the view ray's angle
+    /// `lit` are distances along the ray \[m\], from and to. With θ' the sun's and θ_j the view ray's angle
     /// from the vertical, z_P the depth of P:
     ///
     ///   L = E₀ sec θ' β(Θ) Σ ∫ e^(−κ (z_P sec θ' + r (1 + cos θ_j sec θ'))) dr
@@ -40,26 +40,4 @@ impl Scattering {
         let scattered = self.scattered(sun.toward, ray.direction) + self.evenly(ray);
         sun.horizontal * along * scattered * sec as f32
     }
-}
-
-/// What `shadows` (shares of the ray's length, as [`light::Occlude::shadows`] tells) leave of a ray of `length` \[m\]: rising
-/// stretches from and to \[m\]. Only dark stretches count; what is merely dimmed is for the caller.
-pub fn lit_intervals(shadows: &[Stretch], length: f64) -> Vec<[f64; 2]> {
-    let mut dark: Vec<[f64; 2]> = shadows
-        .iter()
-        .filter(|s| s.dark && s.from < s.to)
-        .map(|s| [s.from * length, s.to * length])
-        .collect();
-    dark.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let (mut lit, mut from) = (Vec::new(), 0.0);
-    for [start, end] in dark {
-        if start > from {
-            lit.push([from, start]);
-        }
-        from = f64::max(from, end);
-    }
-    if from < length {
-        lit.push([from, length]);
-    }
-    lit
 }

@@ -7,7 +7,7 @@ use super::BREAKS_AT;
 /// Why there are no such waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WaveError {
-    /// A number is not finite, or not above 0: what, value.
+    /// A number is not finite, or lower than it may be: what, value.
     Number(&'static str, f64),
     /// A wave of this amplitude and wavelength \[m\] breaks.
     Breaks {
@@ -25,7 +25,10 @@ pub enum WaveError {
 impl fmt::Display for WaveError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(what, value) => write!(f, "{what} is {value}, but must be a number above 0"),
+            Self::Number(what, value) => write!(
+                f,
+                "{what} is {value}: lengths, speeds and depths must be numbers above 0, amplitudes 0 or more, phases finite"
+            ),
             Self::Breaks { amplitude, wavelength, steepness } => write!(
                 f,
                 "a wave of amplitude {amplitude} m and length {wavelength} m breaks: its height is {steepness:.3} of its length, \

@@ -123,7 +123,7 @@ fn parted(mesh: &Mesh, world_from_mesh: &DAffine3, levels: &[Level]) -> Option<(
     Some((cut, starts))
 }
 
-/// Cuts a triangle where `heights` of its corners are 0: into three, or two where it goes through a corner.
+/// Cuts a triangle where `heights` of its corners are 0: into three, one of them without an area where it goes through a corner.
 fn split(mesh: &mut Mesh, triangle: [u32; 3], heights: [f64; 3], pieces: &mut Vec<[u32; 3]>) {
     let above = heights.iter().filter(|&&height| height > 0.0).count();
     // Turned so that the one that is alone on its side comes first.
