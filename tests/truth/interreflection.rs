@@ -68,6 +68,29 @@ fn a_closed_room_holds_its_flux_over_what_it_absorbs() {
     }
 }
 
+/// Water up to 1 m in the room, that takes no light.
+const FILLED: &str = "[[water]]\nquality = 'clear'\nindex = 1.33\n\
+    polygon = { points = [[-3, 1, -2], [-3, 1, 2], [3, 1, 2], [3, 1, -2]] }\n";
+
+#[test]
+fn a_room_with_water_holds_its_flux_too() {
+    let (sensors, areas) = walls();
+    // Above the water, and in it.
+    for (height, grey) in [(1.9, 0.5), (0.4, 0.5), (1.9, 0.8)] {
+        let lamp = format!("[[light]]\nposition = [0.4, {height}, 0.3]\nintensity = 100\n");
+        let text = room(grey, &format!("{lamp}{FILLED}{sensors}"));
+        let flux = |across: &'static str| -> f64 {
+            let set =
+                [ON[0], ("interreflection.patches", "1500"), ("interreflection.orders", "0"), ("interreflection.across", across)];
+            let found: f64 = lux(&text, &set).iter().zip(&areas).map(|(lux, area)| lux * area).sum();
+            found / (400.0 * PI / (1.0 - grey))
+        };
+        let [on, off] = ["on", "off"].map(flux);
+        println!("lamp at {height} m, ρ = {grey}: {on:.4} of Φ/(1 − ρ); {off:.4} without what crosses the surface");
+        assert!((on - 1.0).abs() < 0.02 && off < 0.95, "{height} {grey}: {on} {off}");
+    }
+}
+
 #[test]
 fn a_room_that_shines_is_a_furnace() {
     // Emission e and reflectance ρ everywhere: radiosity over π is e/(1 − ρ), for eyes and for sensors (π L).

@@ -327,6 +327,12 @@ pub const KNOBS: &[Knob] = &[
         doc: "diffuse reflections followed (thesis: 3); 0 = until 1e-5 of the light is left",
     },
     Knob {
+        name: "interreflection.across",
+        domain: Domain::Choice(&["off", "on"]),
+        presets: ["on"; 3],
+        doc: "whether diffusely reflected light passes water surfaces from face to face: off leaves it out as the thesis does, and a pool's bottom in a bright hall gets half its light",
+    },
+    Knob {
         name: "water.caustics",
         domain: Domain::Choice(&["off", "beams"]),
         presets: ["off", "beams", "beams"],

@@ -7,6 +7,7 @@ use glam::DVec3;
 use light::{Occlude, Place, Spectrum, Vacuum, sampling};
 
 use crate::obstacles::Obstacles;
+use crate::passage::{Bent, Passage, Through};
 use crate::patch::{place, reach};
 use crate::tree::{Node, Tree};
 
@@ -75,6 +76,8 @@ pub struct Between<'a> {
     pub attenuate: &'a dyn Attenuate,
     /// Mirrors; most often none.
     pub mirrors: &'a [Arc<dyn Mirror>],
+    /// Surfaces that light passes bent; most often none.
+    pub passages: &'a [Arc<dyn Passage>],
     /// All that may be in the way, to tell where nothing is without asking `occlude`; none = always ask.
     pub obstacles: Option<&'a Obstacles>,
 }
@@ -82,7 +85,25 @@ pub struct Between<'a> {
 impl<'a> Between<'a> {
     /// Things in the way, no medium and no mirror.
     pub fn dry(occlude: &'a dyn Occlude) -> Self {
-        Self { occlude, attenuate: &Clear, mirrors: &[], obstacles: None }
+        Self { occlude, attenuate: &Clear, mirrors: &[], passages: &[], obstacles: None }
+    }
+
+    /// All kinds of ways that lead to something in a part of space.
+    pub(crate) fn ways_to(&self, part: u32) -> impl Iterator<Item = Way<'a>> + use<'a> {
+        let mirrored = self.mirrors.iter().map(|mirror| By::Mirrored(&**mirror));
+        let through = self.passages.iter().zip(1..).filter(move |&(_, below)| part == 0 || part == below);
+        let through =
+            through.map(move |(passage, below)| By::Through(Through::new(&**passage, below, part != 0)));
+        std::iter::once(By::Straight)
+            .chain(mirrored)
+            .chain(through)
+            .zip(0..)
+            .map(|(by, number)| Way { by, number })
+    }
+
+    /// The part of space that a point is in.
+    pub(crate) fn part(&self, point: DVec3) -> u32 {
+        self.passages.iter().position(|passage| passage.holds(point)).map_or(0, |k| k as u32 + 1)
     }
 
     /// The share of light that one straight leg leaves.
@@ -94,10 +115,25 @@ impl<'a> Between<'a> {
         through * self.occlude.transmittance(&from.toward(to.as_vec3()))
     }
 
-    /// The share of light that arrives between two places: straight, or over a mirror.
-    pub(crate) fn share(&self, mirror: Option<&dyn Mirror>, from: &Place, to: &Place) -> Spectrum {
+    /// The share of light that arrives between two places, without what a passage itself takes.
+    pub(crate) fn share(&self, by: By<'_>, from: &Place, to: &Place) -> Spectrum {
+        match by {
+            By::Straight => self.leg(from, to.position.as_dvec3()),
+            By::Mirrored(mirror) => self.mirrored(mirror, from, to),
+            By::Through(through) => self.passing(&through, from, to),
+        }
+    }
+
+    fn passing(&self, through: &Through<'_>, from: &Place, to: &Place) -> Spectrum {
         let [x, y] = [from, to].map(|place| place.position.as_dvec3());
-        let Some(mirror) = mirror else { return self.leg(from, y) };
+        match through.bent(y, x) {
+            Some(Bent { at, .. }) if through.passage.covers(at) => self.leg(from, at) * self.leg(to, at),
+            _ => Spectrum::ZERO,
+        }
+    }
+
+    fn mirrored(&self, mirror: &dyn Mirror, from: &Place, to: &Place) -> Spectrum {
+        let [x, y] = [from, to].map(|place| place.position.as_dvec3());
         let (point, normal) = mirror.plane();
         let [hx, hy] = [x, y].map(|p| (p - point).dot(normal));
         if hx * hy <= 0.0 {
@@ -115,31 +151,30 @@ impl<'a> Between<'a> {
     }
 
     /// The same without things in the way, where surely none is between two nodes; all of it, if nothing else is there either.
-    pub(crate) fn cleared(&self, nodes: [&Node; 2], mirror: Option<&dyn Mirror>) -> Cleared<'a> {
+    pub(crate) fn cleared(&self, nodes: [&Node; 2], by: By<'_>) -> Cleared<'a> {
         let Some(obstacles) = self.obstacles else { return Cleared::No };
         let mut hull = [DVec3::ZERO; 2 * 2 * 8];
         let mut count = 0;
         for node in nodes {
             count += node.corners_of_hull(&mut hull[count..]);
         }
-        if let Some(mirror) = mirror {
+        let is_straight = matches!(by, By::Straight);
+        if let Some((point, normal)) = by.plane() {
             // Legs end between the feet of what they join.
-            let (point, normal) = mirror.plane();
             for k in 0..count {
                 hull[count + k] = hull[k] - normal * (hull[k] - point).dot(normal);
             }
             count *= 2;
         }
         let hull = &hull[..count];
-        let tube =
-            mirror.is_none().then(|| (nodes.map(|node| node.centre), nodes[0].radius.max(nodes[1].radius)));
+        let tube = is_straight.then(|| (nodes.map(|node| node.centre), nodes[0].radius.max(nodes[1].radius)));
         if !obstacles.is_clear(hull, tube) {
             return Cleared::No;
         }
         let (low, high) = hull
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
-        if mirror.is_none() && self.attenuate.is_clear(low, high) {
+        if is_straight && self.attenuate.is_clear(low, high) {
             return Cleared::All;
         }
         Cleared::OfThings(Self { occlude: &Vacuum, ..*self })
@@ -170,7 +205,7 @@ impl<'a> Between<'a> {
         let [from, to] =
             [(x, 0), (y, 1)].map(|((at, normal), k)| place(at, normal, pair.reach(k, at), pair.seed));
         let from = Place { error: from.error.max(pair.error), ..from };
-        self.share(pair.mirror, &from, &to)
+        self.share(pair.by, &from, &to)
     }
 }
 
@@ -183,6 +218,33 @@ const NEAR: f64 = 2.0;
 
 /// Directions that are tried at most for every way between near nodes, since some of them miss.
 const MORE: u32 = 16;
+
+/// How light goes from one node to another.
+#[derive(Clone, Copy)]
+pub(crate) enum By<'a> {
+    Straight,
+    Mirrored(&'a dyn Mirror),
+    Through(Through<'a>),
+}
+
+impl By<'_> {
+    /// A point and the normal of the plane that it meets.
+    fn plane(&self) -> Option<(DVec3, DVec3)> {
+        match self {
+            Self::Straight => None,
+            Self::Mirrored(mirror) => Some(mirror.plane()),
+            Self::Through(through) => Some(through.passage.plane()),
+        }
+    }
+}
+
+/// One kind of way.
+#[derive(Clone, Copy)]
+pub(crate) struct Way<'a> {
+    pub(crate) by: By<'a>,
+    /// Among all that lead to a receiver.
+    pub(crate) number: u32,
+}
 
 /// What is known of the way between two nodes before any is tried.
 pub(crate) enum Cleared<'a> {
@@ -197,7 +259,7 @@ pub(crate) enum Cleared<'a> {
 pub(crate) struct Pair<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) nodes: [&'a Node; 2],
-    pub(crate) mirror: Option<&'a dyn Mirror>,
+    pub(crate) by: By<'a>,
     pub(crate) seed: u32,
     pub(crate) rays: u32,
     /// The first is at least this far off \[m\].
@@ -206,17 +268,19 @@ pub(crate) struct Pair<'a> {
 
 impl Pair<'_> {
     fn image(&self, at: DVec3, normal: DVec3) -> (DVec3, DVec3) {
-        self.mirror.map_or((at, normal), |mirror| {
-            let (point, across) = mirror.plane();
-            let flip = |v: DVec3, height: f64| v - across * (2.0 * height);
-            (flip(at, (at - point).dot(across)), flip(normal, normal.dot(across)))
-        })
+        let By::Mirrored(mirror) = self.by else { return (at, normal) };
+        let (point, across) = mirror.plane();
+        let flip = |v: DVec3, height: f64| v - across * (2.0 * height);
+        (flip(at, (at - point).dot(across)), flip(normal, normal.dot(across)))
     }
 
     /// Whether the second, or its image, is so near that ways between evenly spread points are not those that light takes.
     fn is_near(&self) -> bool {
         let [a, b] = self.nodes;
-        b.is_piece && self.image(b.centre, b.normal).0.distance(a.centre) <= NEAR * (a.radius + b.radius)
+        let is_bent = matches!(self.by, By::Through(_));
+        b.is_piece
+            && !is_bent
+            && self.image(b.centre, b.normal).0.distance(a.centre) <= NEAR * (a.radius + b.radius)
     }
 
     /// Ends of way number `i` between points that are spread evenly over both, and what it carries.
@@ -224,6 +288,9 @@ impl Pair<'_> {
         let shifts = [1, 2].map(|purpose| sampling::shift(self.seed, purpose));
         let x = self.tree.point(self.nodes[0], sampling::sobol(i, shifts[0]));
         let y = self.tree.point(self.nodes[1], sampling::lattice(i, self.rays, shifts[1]).map(f64::from));
+        if let By::Through(through) = self.by {
+            return ([x, y], through.carries(x, y));
+        }
         let (image, turned) = self.image(y.0, y.1);
         let way = image - x.0;
         let cosines = way.dot(x.1).max(0.0) * (-way.dot(turned)).max(0.0);

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use light::Spectrum;
 use light::sampling::scramble;
 
-use crate::between::{Between, Cleared, Mirror, Pair};
+use crate::between::{Between, By, Cleared, Pair, Way};
 use crate::form_factor::quick_form_factor;
+use crate::passage::{Apparent, Through};
 use crate::sight::{Sight, sight};
-use crate::tree::Node;
-use crate::{Patches, point_form_factor};
+use crate::tree::{MIXED, Node};
+use crate::{Mirror, Patches, point_form_factor};
 
 /// Who looks.
 pub(crate) struct Receiver<'a> {
@@ -19,6 +20,8 @@ pub(crate) struct Receiver<'a> {
     pub(crate) name: u32,
     /// It is at least this far off \[m\].
     pub(crate) error: f32,
+    /// Part of space that it is in.
+    pub(crate) part: u32,
 }
 
 /// How to look.
@@ -31,9 +34,6 @@ pub(crate) struct Gather<'a> {
     pub(crate) seed: u32,
 }
 
-/// Straight, or over a mirror.
-type Way<'a> = Option<(u32, &'a dyn Mirror)>;
-
 /// Takes a node, F from the receiver to it, and the share that arrives.
 type Receive<'a> = dyn FnMut(u32, f64, Spectrum) + 'a;
 
@@ -43,11 +43,10 @@ impl Gather<'_> {
         if self.patches.is_empty() {
             return;
         }
-        let mirrors = self.between.mirrors.iter().enumerate();
-        for by in std::iter::once(None).chain(mirrors.map(|(k, mirror)| Some((k as u32, &**mirror)))) {
+        for way in self.between.ways_to(receiver.part) {
             let mut open = vec![0];
             while let Some(node) = open.pop() {
-                if let Look::Into([first, second]) = self.look(receiver, node, by, receive) {
+                if let Look::Into([first, second]) = self.look(receiver, node, way, receive) {
                     open.extend([second, first]);
                 }
             }
@@ -55,31 +54,28 @@ impl Gather<'_> {
     }
 
     /// Looks at a node, and reports it if it may be seen as one.
-    fn look(&self, receiver: &Receiver<'_>, source: u32, by: Way<'_>, receive: &mut Receive<'_>) -> Look {
-        let (a, b) = (receiver.node, &self.patches.tree.nodes[source as usize]);
-        let image;
-        let seen = match by {
-            None => b,
-            Some((_, mirror)) if are_apart(mirror, a, b) => return Look::Done,
-            Some((_, mirror)) => {
-                image = b.image(mirror.plane().0, mirror.plane().1);
-                &image
-            }
+    fn look(&self, receiver: &Receiver<'_>, source: u32, way: Way<'_>, receive: &mut Receive<'_>) -> Look {
+        let b = &self.patches.tree.nodes[source as usize];
+        let seen = match way.by {
+            By::Through(_) if b.part == MIXED => return b.children.map_or(Look::Done, Look::Into),
+            By::Through(through) => self.bent(receiver, b, &through),
+            By::Mirrored(mirror) if are_apart(mirror, receiver.node, b) => None,
+            _ => self.unbent(receiver.node, b, way.by),
         };
-        let Sight::Within(most) = sight(a, seen) else { return Look::Done };
-        let gap = a.centre.distance(seen.centre) / (a.radius + b.radius);
-        let may = most <= self.share && (b.is_piece || (b.spread <= WIDEST_GROUP && gap >= FAR));
+        let Some(seen) = seen else { return Look::Done };
+        let is_small = seen.most <= self.share && b.part != MIXED;
+        let may = is_small && (b.is_piece || (b.spread <= WIDEST_GROUP && seen.gap >= FAR));
         let children = match b.children {
             Some(children) if !may => return Look::Into(children),
             other => other,
         };
-        let share = self.clear_share(a, b, seen, by, gap);
+        let share = self.clear_share(receiver.node, b, &seen, way.by);
         if share <= 0.0 {
             return Look::Done;
         }
-        let (tint, partial) = self.through(receiver, source, by, self.ways(most));
+        let (tint, partial) = self.through(receiver, source, way, self.ways(seen.most));
         match children {
-            Some(children) if partial && most > 0.25 * self.share => Look::Into(children),
+            Some(children) if partial && seen.most > 0.25 * self.share => Look::Into(children),
             _ => {
                 receive(source, share, tint);
                 Look::Done
@@ -87,16 +83,48 @@ impl Gather<'_> {
         }
     }
 
-    /// F_ij with nothing in the way; `seen` is `b`, or its mirror image.
-    fn clear_share(&self, a: &Node, b: &Node, seen: &Node, by: Way<'_>, gap: f64) -> f64 {
+    /// What is known of a node that is seen straight, or in a mirror; none where surely nothing is.
+    fn unbent(&self, a: &Node, b: &Node, by: By<'_>) -> Option<Seen> {
+        let image = match by {
+            By::Mirrored(mirror) => b.image(mirror.plane().0, mirror.plane().1),
+            _ => *b,
+        };
+        let Sight::Within(most) = sight(a, &image) else { return None };
+        let gap = a.centre.distance(image.centre) / (a.radius + b.radius);
+        Some(Seen { most, gap, how: How::As(image) })
+    }
+
+    /// The same of a node behind a surface.
+    fn bent(&self, receiver: &Receiver<'_>, b: &Node, through: &Through<'_>) -> Option<Seen> {
+        if !through.joins([receiver.part, b.part]) {
+            return None;
+        }
+        let apparent = through.apparent(receiver.node, b)?;
+        let Sight::Within(most) = apparent.sight(receiver.node, b, through) else { return None };
+        Some(Seen { most, gap: apparent.gap(receiver.node, b), how: How::Bent(apparent) })
+    }
+
+    /// F_ij with nothing in the way.
+    fn clear_share(&self, a: &Node, b: &Node, seen: &Seen, by: By<'_>) -> f64 {
+        let gap = seen.gap;
+        let seen = match (&seen.how, by) {
+            (How::As(image), _) => image,
+            (How::Bent(apparent), By::Through(through)) => {
+                return through.form_factor((&self.patches.tree, a, b), apparent, gap);
+            }
+            (How::Bent(_), _) => return 0.0,
+        };
         if !b.is_piece {
             let distance = a.centre.distance(seen.centre);
             let toward = (seen.centre - a.centre) / distance;
             // A mirrored group is the group itself, seen along the mirrored way.
-            let back = by.map_or(-toward, |(_, mirror)| {
-                let normal = mirror.plane().1;
-                normal * (2.0 * toward.dot(normal)) - toward
-            });
+            let back = match by {
+                By::Mirrored(mirror) => {
+                    let normal = mirror.plane().1;
+                    normal * (2.0 * toward.dot(normal)) - toward
+                }
+                _ => -toward,
+            };
             let projected = self.patches.tree.projected(b, back);
             return a.normal.dot(toward).max(0.0) * projected / (PI * distance * distance);
         }
@@ -118,11 +146,10 @@ impl Gather<'_> {
     }
 
     /// The share that arrives between receiver and node by so many ways, and whether things hide them in part.
-    fn through(&self, receiver: &Receiver<'_>, source: u32, by: Way<'_>, rays: u32) -> (Spectrum, bool) {
+    fn through(&self, receiver: &Receiver<'_>, source: u32, way: Way<'_>, rays: u32) -> (Spectrum, bool) {
         let nodes = [receiver.node, &self.patches.tree.nodes[source as usize]];
-        let mirror = by.map(|(_, mirror)| mirror);
         let cleared;
-        let between = match self.between.cleared(nodes, mirror) {
+        let between = match self.between.cleared(nodes, way.by) {
             Cleared::All => return (Spectrum::ONE, false),
             Cleared::OfThings(between) => {
                 cleared = between;
@@ -130,12 +157,11 @@ impl Gather<'_> {
             }
             Cleared::No => self.between,
         };
-        let over = by.map_or(0, |(mirror, _)| mirror + 1);
-        let name = scramble(receiver.name ^ scramble(source ^ scramble(over)));
+        let name = scramble(receiver.name ^ scramble(source ^ scramble(way.number)));
         let pair = Pair {
             tree: &self.patches.tree,
             nodes,
-            mirror,
+            by: way.by,
             seed: scramble(name ^ scramble(self.seed)),
             rays: self.rays.max(1),
             error: receiver.error,
@@ -150,6 +176,22 @@ impl Gather<'_> {
         }
         (first.value(), false)
     }
+}
+
+/// What is known of a node before anything is tried.
+struct Seen {
+    /// As [`Sight::Within`].
+    most: f64,
+    /// Distance from the receiver, in radii of both.
+    gap: f64,
+    how: How,
+}
+
+/// Where it appears.
+enum How {
+    /// Where it is, or where its mirror image is.
+    As(Node),
+    Bent(Apparent),
 }
 
 /// What to do after a look.

@@ -9,6 +9,7 @@ use crate::Patches;
 use crate::balance::Balance;
 use crate::between::Between;
 use crate::gather::{Gather, Receiver};
+use crate::tree::Node;
 
 /// How exactly light is followed from patch to patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +56,8 @@ pub struct Links {
     tints: Vec<Spectrum>,
     /// By patch: where its links begin; and the end of all.
     pub(crate) starts: Vec<usize>,
+    /// By part of space from 1 on: n² relative to part 0.
+    squares: Vec<f64>,
     balance: Balance,
     share: f64,
 }
@@ -82,8 +85,15 @@ impl Links {
             tints.extend(colours);
             starts.push(links.len());
         }
-        let mut all =
-            Self { links, tints, starts, balance: Balance::none(patches.len()), share: finder.linking.share };
+        let squares = between.passages.iter().map(|passage| passage.index().powi(2)).collect();
+        let mut all = Self {
+            links,
+            tints,
+            starts,
+            squares,
+            balance: Balance::none(patches.len()),
+            share: finder.linking.share,
+        };
         all.balance = Balance::of(patches, &all, linking.closed);
         all
     }
@@ -108,10 +118,13 @@ impl Links {
         size_of_val(&*self.links) + size_of_val(&*self.tints) + size_of_val(&*self.starts)
     }
 
-    /// By patch, the share of its hemisphere that is filled with patches as far as it sees them, Σ_j F_ij, within \[0, 1\] but for rounding: 1 in a
-    /// closed room, but for the noise of the tried ways.
+    /// By patch, the share of its hemisphere that is filled with patches as far as it sees them, Σ_j F_ij n_j²/n_i², within \[0, 1\] but for
+    /// rounding: 1 in a closed room, but for the noise of the tried ways.
     pub fn closure(&self, patches: &Patches) -> Vec<Spectrum> {
-        self.irradiance(patches, &vec![Spectrum::ONE; patches.len()])
+        let square = |i: usize| self.square(patches.parts[i]) as f32;
+        let even: Vec<_> = (0..patches.len()).map(|i| Spectrum::splat(square(i))).collect();
+        let arriving = self.irradiance(patches, &even);
+        arriving.into_iter().enumerate().map(|(i, arriving)| arriving * square(i).recip()).collect()
     }
 
     /// The largest factor by which the balance changed a patch's light, less 1: what the links left to put right.
@@ -140,9 +153,21 @@ impl Links {
         crate::solve::pulled(patches, &balanced)
     }
 
-    /// Of a link, F_ij in its best band.
-    pub(crate) fn largest(&self, link: &Link) -> f64 {
-        f64::from(link.share) * f64::from(self.tints[link.tint as usize].max())
+    /// Of a link of patch `i`, F_ij n_j²/n_i² in its best band.
+    pub(crate) fn largest(&self, i: usize, link: &Link, patches: &Patches) -> f64 {
+        let share = f64::from(link.share) * f64::from(self.tints[link.tint as usize].max());
+        let parts = [patches.parts[i], patches.tree.nodes[link.source as usize].part];
+        if parts[0] == parts[1] { share } else { share * self.square(parts[1]) / self.square(parts[0]) }
+    }
+
+    /// n² relative to part 0 of space.
+    fn square(&self, part: u32) -> f64 {
+        self.squares.get((part as usize).wrapping_sub(1)).copied().unwrap_or(1.0)
+    }
+
+    /// A n² of a node: what it sends out where light is in balance. The factor of mixed nodes, which nothing is linked to, is 1.
+    pub(crate) fn extent(&self, node: &Node) -> f64 {
+        node.area * self.square(node.part)
     }
 }
 
@@ -172,7 +197,8 @@ impl Finder<'_> {
         let Self { patches, between, linking, .. } = self;
         let gather =
             Gather { patches, between, share: linking.share, rays: linking.rays, seed: linking.seed };
-        let receiver = Receiver { node: patches.node(patch), name: patches.leaves[patch], error: 0.0 };
+        let node = patches.node(patch);
+        let receiver = Receiver { node, name: patches.leaves[patch], error: 0.0, part: node.part };
         gather.all(&receiver, &mut |source, share, tint| add(&mut found, source, share, tint));
         self.found.fetch_add(found.0.len(), Ordering::Relaxed);
         found

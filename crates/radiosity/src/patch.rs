@@ -3,7 +3,7 @@
 use glam::DVec3;
 use light::{Geometry, Place, Spectrum};
 
-use crate::tree::{Node, Tree};
+use crate::tree::{Node, Tree, common};
 use crate::triangle::{self, Corners};
 
 /// One of the two sides of a face.
@@ -72,7 +72,7 @@ pub trait Surfaces: Sync {
     fn reflectance(&self, patch: &Patch) -> Spectrum;
 
     /// Which part of space the patch is lit in, such as air or water: from one part to another light on a face does not go on
-    /// smoothly.
+    /// smoothly. Between part 0 and part k + 1 there may be [`Passage`](crate::Passage) number k.
     fn part(&self, patch: &Patch) -> u32 {
         let _ = patch;
         0
@@ -151,7 +151,14 @@ impl Patches {
             }
         }
         let edge = fitting(&sides, cut);
-        let faces = sides.iter().map(|side| halved(side.2, edge)).collect();
+        let faces = sides
+            .iter()
+            .map(|&(face, side, corners)| {
+                let mut nodes = halved(corners, edge);
+                part(&mut nodes, &|corners| surfaces.part(&Patch { face, side, corners }));
+                nodes
+            })
+            .collect();
         let (tree, starts) = Tree::new(faces);
         let total = before[before.len() - 1];
         let mut roots = vec![[NONE; 2]; total];
@@ -179,7 +186,7 @@ impl Patches {
         }
         patches.roots = roots;
         patches.reflectances = patches.iter().map(|patch| share(surfaces.reflectance(&patch))).collect();
-        patches.parts = patches.iter().map(|patch| surfaces.part(&patch)).collect();
+        patches.parts = (0..patches.len()).map(|index| patches.node(index).part).collect();
         patches
     }
 
@@ -318,6 +325,16 @@ fn fits(corners: &Corners, edge: f64, left: &mut usize) -> bool {
     let enough = *left > 0;
     *left = left.saturating_sub(1);
     enough
+}
+
+/// Writes down which part of space the nodes of a face are in.
+fn part(nodes: &mut [Node], of: &dyn Fn(Corners) -> u32) {
+    for k in (0..nodes.len()).rev() {
+        nodes[k].part = match nodes[k].children {
+            Some(children) => common(children.map(|child| nodes[child as usize].part)),
+            None => of(nodes[k].corners),
+        };
+    }
 }
 
 /// The tree of one face: every node before its children.

@@ -54,7 +54,7 @@ fn is_behind(a: &Node, b: &Node) -> bool {
 
 /// The largest cosine between one of the node's normals and a direction within asin `slack` of `toward`; none when all
 /// are beyond 90°.
-fn best_cosine(node: &Node, toward: DVec3, slack: f64) -> Option<f64> {
+pub(crate) fn best_cosine(node: &Node, toward: DVec3, slack: f64) -> Option<f64> {
     let cos = node.normal.dot(toward).clamp(-1.0, 1.0);
     if node.spread > 0.0 {
         let angle = cos.acos() - slack.asin() - node.spread;

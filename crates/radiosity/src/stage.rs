@@ -6,6 +6,7 @@ use light::{Arrival, Geometry, Illuminate, Occlude, Place, Spectrum};
 
 use crate::between::{Attenuate, Between, Clear, Mirror};
 use crate::gather::{Gather, Receiver};
+use crate::passage::Passage;
 use crate::tree::Node;
 use crate::vertices::Vertices;
 use crate::{Linking, Links, Patches, Solution};
@@ -27,6 +28,7 @@ pub struct Interreflected {
     sent: Vec<Spectrum>,
     attenuate: Arc<dyn Attenuate>,
     mirrors: Vec<Arc<dyn Mirror>>,
+    passages: Vec<Arc<dyn Passage>>,
     share: f64,
     rays: u32,
 }
@@ -43,12 +45,19 @@ impl Interreflected {
         let vertices = Vertices::new(geometry, &patches, &solution.irradiance);
         let sent = links.sent(&patches, &solution.exitance);
         let (share, rays) = (links.share(), linking.rays);
-        Self { patches, vertices, sent, attenuate: Arc::new(Clear), mirrors: Vec::new(), share, rays }
+        let (attenuate, mirrors, passages) = (Arc::new(Clear), Vec::new(), Vec::new());
+        Self { patches, vertices, sent, attenuate, mirrors, passages, share, rays }
     }
 
     /// The same with a medium and mirrors between the patches, as the links had them.
     pub fn through(mut self, attenuate: Arc<dyn Attenuate>, mirrors: Vec<Arc<dyn Mirror>>) -> Self {
         (self.attenuate, self.mirrors) = (attenuate, mirrors);
+        self
+    }
+
+    /// The same with surfaces that light passes, as the links had them.
+    pub fn across(mut self, passages: Vec<Arc<dyn Passage>>) -> Self {
+        self.passages = passages;
         self
     }
 
@@ -59,8 +68,13 @@ impl Interreflected {
 
     /// Irradiance at a place by gathering all patches, whether or not it is on a face \[W m⁻² nm⁻¹\].
     pub fn gathered(&self, place: &Place, occlude: &dyn Occlude) -> Spectrum {
-        let between =
-            Between { occlude, attenuate: &*self.attenuate, mirrors: &self.mirrors, obstacles: None };
+        let between = Between {
+            occlude,
+            attenuate: &*self.attenuate,
+            mirrors: &self.mirrors,
+            passages: &self.passages,
+            obstacles: None,
+        };
         let gather = Gather {
             patches: &self.patches,
             between: &between,
@@ -69,7 +83,9 @@ impl Interreflected {
             seed: place.seed,
         };
         let point = Node::point(place.position.as_dvec3(), place.normal.as_dvec3());
-        let receiver = Receiver { node: &point, name: place.seed, error: place.error };
+        // A place on a surface's border is lit where it looks.
+        let part = between.part(point.centre + point.normal * OFF);
+        let receiver = Receiver { node: &point, name: place.seed, error: place.error, part };
         let mut sum = Spectrum::ZERO;
         gather.all(&receiver, &mut |source, share, tint| {
             sum += self.sent[source as usize] * tint * share as f32;
@@ -83,6 +99,9 @@ impl Interreflected {
         Some(self.vertices.at(patch, weights))
     }
 }
+
+/// How far in front of a place \[m\] tells which part of space it is in.
+const OFF: f64 = 1e-3;
 
 impl Illuminate for Interreflected {
     fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival)) {

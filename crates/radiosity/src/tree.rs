@@ -26,7 +26,12 @@ pub(crate) struct Node {
     /// For a piece: which corner it is halved from.
     pub(crate) apex: u8,
     pub(crate) is_piece: bool,
+    /// Part of space that all of it is lit in, or [`MIXED`].
+    pub(crate) part: u32,
 }
+
+/// Of nodes that lie in several parts of space. They are never seen as one.
+pub(crate) const MIXED: u32 = u32::MAX;
 
 impl Node {
     pub(crate) fn piece(corners: Corners) -> Self {
@@ -41,6 +46,7 @@ impl Node {
             children: None,
             apex: triangle::apex(&corners) as u8,
             is_piece: true,
+            part: 0,
         }
     }
 
@@ -80,6 +86,7 @@ impl Node {
             children: Some(children),
             apex: 0,
             is_piece: false,
+            part: common(parts.map(|part| part.part)),
         }
     }
 
@@ -96,6 +103,11 @@ impl Node {
             ..*self
         }
     }
+}
+
+/// The part of space of two nodes together.
+pub(crate) fn common([a, b]: [u32; 2]) -> u32 {
+    if a == b { a } else { MIXED }
 }
 
 /// All nodes, every one before its children; the first is the root, if there is any.
@@ -119,6 +131,8 @@ impl Tree {
             }));
         }
         let mut order = starts.clone();
+        // Parts of space first: what is mixed is not seen as one.
+        order.sort_by_key(|&start| nodes[start as usize].part);
         let mut next = 0;
         if !order.is_empty() {
             group(&mut nodes, &mut order, &mut next);
@@ -157,6 +171,21 @@ fn group(nodes: &mut [Node], order: &mut [u32], next: &mut u32) -> u32 {
     }
     let mine = *next;
     *next += 1;
+    let part = |start: &u32| nodes[*start as usize].part;
+    let first = part(&order[0]);
+    let mut half = order.partition_point(|start| part(start) == first);
+    if half == order.len() {
+        sort_by_widest(nodes, order);
+        half /= 2;
+    }
+    let (first, second) = order.split_at_mut(half);
+    let children = [group(nodes, first, next), group(nodes, second, next)];
+    nodes[mine as usize] = Node::group(children, children.map(|child| &nodes[child as usize]));
+    mine
+}
+
+/// Brings nodes in order along what tells them apart most.
+fn sort_by_widest(nodes: &[Node], order: &mut [u32]) {
     // Six numbers tell parts apart: where they are, and where they look, which counts as much as half the extent.
     let bounds = |value: &dyn Fn(&Node) -> DVec3, order: &[u32]| {
         let values = order.iter().map(|&i| value(&nodes[i as usize]));
@@ -175,9 +204,4 @@ fn group(nodes: &mut [Node], order: &mut [u32], next: &mut u32) -> u32 {
     };
     // Ties by number, so that the order never depends on the sort.
     order.sort_unstable_by(|&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
-    let half = order.len() / 2;
-    let (first, second) = order.split_at_mut(half);
-    let children = [group(nodes, first, next), group(nodes, second, next)];
-    nodes[mine as usize] = Node::group(children, children.map(|child| &nodes[child as usize]));
-    mine
 }

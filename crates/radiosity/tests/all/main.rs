@@ -3,6 +3,7 @@
 mod form_factors;
 mod groups;
 mod mirrors;
+mod passages;
 mod patches;
 mod rooms;
 mod solutions;

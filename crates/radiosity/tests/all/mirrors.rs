@@ -77,12 +77,12 @@ fn a_perfect_mirror_doubles_the_room() {
     for attenuate in media {
         let doubled = means(
             &patches(4.0, 0.5),
-            &Between { occlude: &Vacuum, attenuate, mirrors: &[], obstacles: None },
+            &Between { occlude: &Vacuum, attenuate, mirrors: &[], passages: &[], obstacles: None },
         );
         let pane: [Arc<dyn Mirror>; 1] = [Arc::new(Pane { above: 0.0, below: 1.0 })];
         let half = means(
             &patches(2.0, 0.5),
-            &Between { occlude: &Vacuum, attenuate, mirrors: &pane, obstacles: None },
+            &Between { occlude: &Vacuum, attenuate, mirrors: &pane, passages: &[], obstacles: None },
         );
         for (half, doubled) in half.into_iter().zip(doubled) {
             // Patches differ (the doubled room's are not cut at the mirror), and so do their links: each is off by what its links of 0.01
@@ -142,7 +142,8 @@ fn a_floor_sees_itself_by_total_reflection() {
     for absorbs in [false, true] {
         let water: [Arc<dyn Mirror>; 1] = [Arc::new(Total { cos: f64::from(beyond).sqrt() })];
         let medium = Absorbing { extinction: Spectrum::splat(if absorbs { extinction } else { 0.0 }) };
-        let between = Between { occlude: &Vacuum, attenuate: &medium, mirrors: &water, obstacles: None };
+        let between =
+            Between { occlude: &Vacuum, attenuate: &medium, mirrors: &water, passages: &[], obstacles: None };
         let links = Links::new(&patches, &between, &Linking { share: 0.01, rays: 32, ..Linking::default() });
         let nearest = |k: &usize| patches.patch(*k).centre().length();
         let middle = (0..patches.len())

@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use light::{Arrival, Geometry, Illuminate, Nearest, Occlude, Place, Spectrum};
 use radiosity::{
-    Between, Cut, Interreflected, Linking, Links, Obstacles, Orders, Patches, Source as Sent, direct, solve,
+    Between, Cut, Interreflected, Linking, Links, Obstacles, Orders, Passage, Patches, Source as Sent,
+    direct, solve,
 };
 use raytrace::surface::Surface;
 use scene::Scene;
@@ -57,6 +58,8 @@ pub(super) struct Linked {
     /// By patch: exitance of its own.
     emitted: Vec<Spectrum>,
     still: Option<Still>,
+    /// Surfaces that the light passes.
+    passages: Vec<Arc<dyn Passage>>,
 }
 
 impl Linked {
@@ -81,9 +84,15 @@ impl Linked {
         };
         // Of curved bodies nobody here knows where they are not.
         let obstacles = scene.solids.is_empty().then(|| Obstacles::new(among.seen));
-        let links = links(&patches, still.as_ref(), (among.occlude, obstacles.as_ref()), &linking);
+        let passages = match &still {
+            Some(still) if settings.choice("interreflection.across") == "on" => still.passages(),
+            _ => Vec::new(),
+        };
+        let between =
+            Between { passages: &passages, obstacles: obstacles.as_ref(), ..Between::dry(among.occlude) };
+        let links = links(&patches, still.as_ref(), &between, &linking);
         let emitted = patches.iter().map(|patch| painted.emitted(&patch)).collect();
-        Self { parted, patches, links, linking, emitted, still }
+        Self { parted, patches, links, linking, emitted, still, passages }
     }
 
     /// What the patches send each other of the light of `sources`.
@@ -99,7 +108,7 @@ impl Linked {
         let mut stage =
             Interreflected::new(&self.parted.geometry, patches, &self.links, &solution, &self.linking);
         if let Some(still) = &self.still {
-            stage = stage.through(Arc::new(still.clone()), still.mirrors());
+            stage = stage.through(Arc::new(still.clone()), still.mirrors()).across(self.passages.clone());
         }
         let light = Stage { stage, parted: Arc::clone(&self.parted), still: self.still.clone() };
         Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None }
@@ -130,17 +139,11 @@ fn reached(
     Sides::new(patches, &lit, &Sight { nearest: among.nearest, parted, passes: &passes, open })
 }
 
-fn links(
-    patches: &Patches,
-    still: Option<&Still>,
-    (occlude, obstacles): (&dyn Occlude, Option<&Obstacles>),
-    linking: &Linking,
-) -> Links {
-    let dry = Between { obstacles, ..Between::dry(occlude) };
-    let Some(still) = still else { return Links::new(patches, &dry, linking) };
-    let apart = Apart { things: occlude, still };
+fn links(patches: &Patches, still: Option<&Still>, dry: &Between<'_>, linking: &Linking) -> Links {
+    let Some(still) = still else { return Links::new(patches, dry, linking) };
+    let apart = Apart { things: dry.occlude, still };
     let mirrors = still.mirrors();
-    Links::new(patches, &Between { occlude: &apart, attenuate: still, mirrors: &mirrors, ..dry }, linking)
+    Links::new(patches, &Between { occlude: &apart, attenuate: still, mirrors: &mirrors, ..*dry }, linking)
 }
 
 /// By patch: irradiance by these sources.

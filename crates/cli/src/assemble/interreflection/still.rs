@@ -1,12 +1,13 @@
-//! What flat water does to light between patches: its surface parts and mirrors, the water takes.
+//! What flat water does to light between patches: its surface mirrors it and lets it through, the water takes.
 
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use light::{Occlude, Ray, Spectrum, fresnel};
-use radiosity::{Attenuate, Mirror};
+use radiosity::{Attenuate, Bent, Mirror, Passage};
 use water::Loss;
 use water::flat::FlatWater;
+use water::path::{Leg, Paths};
 
 /// Ends of ways nearer to a surface than this \[m\] lie on it.
 const ON: f64 = 1e-4;
@@ -19,6 +20,11 @@ impl Still {
     /// Their surfaces as mirrors.
     pub(super) fn mirrors(&self) -> Vec<Arc<dyn Mirror>> {
         (0..self.0.len()).map(|index| Arc::new(Face(self.clone(), index)) as Arc<dyn Mirror>).collect()
+    }
+
+    /// Their surfaces as what light passes.
+    pub(super) fn passages(&self) -> Vec<Arc<dyn Passage>> {
+        (0..self.0.len()).map(|index| Arc::new(Face(self.clone(), index)) as Arc<dyn Passage>).collect()
     }
 
     /// The number of the water that a point is in.
@@ -70,7 +76,40 @@ impl Mirror for Face {
     }
 }
 
-/// Things in the way, and water surfaces: above and below, light goes from face to face separately (the thesis' assumption 8).
+/// Light that passes the surface: above and below patches light each other (the thesis' assumption 8 leaves that out).
+impl Passage for Face {
+    fn plane(&self) -> (DVec3, DVec3) {
+        Mirror::plane(self)
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        self.0.holds(point) == Some(self.1)
+    }
+
+    fn covers(&self, at: DVec3) -> bool {
+        self.0.0[self.1].covers(DVec2::new(at.x, at.z))
+    }
+
+    fn index(&self) -> f64 {
+        self.0.0[self.1].surface.index
+    }
+
+    fn bent(&self, source: DVec3, receiver: DVec3, down: bool) -> Option<Bent> {
+        let surface = &self.0.0[self.1].surface;
+        let [above, below] = if down { [source, receiver] } else { [receiver, source] };
+        let above = above.with_y(above.y.max(surface.level));
+        let below = below.with_y(below.y.min(surface.level - TOUCHING));
+        let [source, receiver] = if down { [above, below] } else { [below, above] };
+        let Leg { at_surface, leaving, toward, share, spread, .. } =
+            surface.refracted(source, receiver, Paths::Exact)?;
+        Some(Bent { at: at_surface?, leaving, toward, share, spread })
+    }
+}
+
+/// What is under water is at least this far below the surface \[m\].
+const TOUCHING: f64 = 1e-9;
+
+/// Things in the way, and water surfaces, which straight ways do not cross.
 pub(super) struct Apart<'a> {
     pub(super) things: &'a dyn Occlude,
     pub(super) still: &'a Still,
