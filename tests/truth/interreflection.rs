@@ -80,13 +80,19 @@ fn a_room_with_water_holds_its_flux_too() {
         let lamp = format!("[[light]]\nposition = [0.4, {height}, 0.3]\nintensity = 100\n");
         let text = room(grey, &format!("{lamp}{FILLED}{sensors}"));
         let flux = |across: &'static str| -> f64 {
-            let set =
-                [ON[0], ("interreflection.patches", "1500"), ("interreflection.orders", "0"), ("interreflection.across", across)];
+            let set = [
+                ON[0],
+                ("interreflection.patches", "1500"),
+                ("interreflection.orders", "0"),
+                ("interreflection.across", across),
+            ];
             let found: f64 = lux(&text, &set).iter().zip(&areas).map(|(lux, area)| lux * area).sum();
             found / (400.0 * PI / (1.0 - grey))
         };
         let [on, off] = ["on", "off"].map(flux);
-        println!("lamp at {height} m, ρ = {grey}: {on:.4} of Φ/(1 − ρ); {off:.4} without what crosses the surface");
+        println!(
+            "lamp at {height} m, ρ = {grey}: {on:.4} of Φ/(1 − ρ); {off:.4} without what crosses the surface"
+        );
         assert!((on - 1.0).abs() < 0.02 && off < 0.95, "{height} {grey}: {on} {off}");
     }
 }
@@ -265,4 +271,54 @@ fn floor_and_underside_of_a_pool_send_light_back_and_forth() {
     // The floor ends 200 m away, 100 depths: 1e-4 of its light. Of the factor 1.0095 patches leave a tenth at most.
     assert!((below / truth[0] - 1.0).abs() < 1e-3, "{below} {truth:?}");
     assert!((above / truth[1] - 1.0).abs() < 1e-3, "{above} {truth:?}");
+}
+
+#[test]
+fn a_lawn_lights_what_is_over_it_once() {
+    let lawn = "
+        [sun]
+        altitude = 40
+        azimuth = 70
+        [[material]]
+        name = 'lawn'
+        colour = 0.2
+        [[model]]
+        plane = { size = [400, 400] }
+        material = 'lawn'
+        [[camera]]
+        position = [0, 5, 10]
+        target = [0, 0, 0]
+        [[sensor]]
+        points = [[0, 0.001, 0]]
+        [[sensor]]
+        points = [[0, 1, 0]]
+        normal = [0, -1, 0]
+        ";
+    for ground in ["open", "hidden"] {
+        let lux = lux(lawn, &[ON[0], ("sky.ground", ground), ("interreflection.patches", "400")]);
+        let share = lux[1] / lux[0];
+        println!("ground {ground}: {share:.4} of what falls on a lawn of 0.2 comes from it");
+        // The lawn's ends leave 1/(1 + 200²) of a hemisphere, its colour's spectrum 1e-3, its patches the rest.
+        assert!((share / 0.2 - 1.0).abs() < 0.01, "{ground}: {share}");
+    }
+}
+
+#[test]
+fn small_things_do_not_leave_large_faces_uncut() {
+    let lamp = "[[light]]\nposition = [0.4, 1.6, 0.3]\nintensity = 100\n[[sensor]]\npoints = [[-2.5, 0.5, -1.5]]\nnormal = [1, 0, 0]\n";
+    // 280 boxes of a centimetre on the floor: 3,360 faces.
+    let boxes: String = (0..280)
+        .map(|k| {
+            let [x, z] = [f64::from(k % 20), f64::from(k / 20)].map(|at| 0.2 * at - 1.9);
+            format!("[[model]]\nbox = {{ size = [0.01, 0.01, 0.01] }}\nmaterial = \"grey\"\nposition = [{x}, 0.001, {z}]\n")
+        })
+        .collect();
+    let found = |more: &str| {
+        let set = [ON[0], ("interreflection.patches", "1000"), ("interreflection.orders", "0")];
+        lux(&room(0.7, &format!("{lamp}{more}")), &set)[0]
+    };
+    let [with, without] = [found(&boxes), found("")];
+    println!("with 280 small boxes {with:.3} lx, without {without:.3} lx");
+    // They cover 0.1 % of the floor; patches of half a metre leave 1 %.
+    assert!((with / without - 1.0).abs() < 0.02, "{with} {without}");
 }

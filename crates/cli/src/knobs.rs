@@ -246,7 +246,7 @@ pub const KNOBS: &[Knob] = &[
         name: "sky.ground",
         domain: Domain::Choice(&["open", "hidden"]),
         presets: ["open"; 3],
-        doc: "whether that ground's light passes the scene's own ground (one bounce, as if nothing shaded the ground) or is hidden by it",
+        doc: "whether that ground's light passes the scene's own ground (one bounce, as if nothing shaded the ground) or is hidden by it; hidden in any case with interreflection",
     },
     Knob {
         name: "water.paths",
@@ -300,7 +300,7 @@ pub const KNOBS: &[Knob] = &[
         name: "interreflection.patches",
         domain: Domain::Integer(16, 1_000_000),
         presets: ["2000", "8000", "40000"],
-        doc: "no more patches than this, as far as the faces themselves are not more (two for each, less those that no light reaches); time and memory grow a little faster than they do: 17,500 take 285 MiB",
+        doc: "no more patches than this of faces that are cut, one for each side of a face that is not on top (less those that no light reaches); time and memory grow a little faster than they do: 17,500 take 285 MiB",
     },
     Knob {
         name: "interreflection.patch",

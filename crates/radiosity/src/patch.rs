@@ -91,8 +91,9 @@ impl<F: Fn(&Patch) -> Spectrum + Sync> Surfaces for F {
 pub struct Cut {
     /// Edges of patches are no longer \[m\], unless that makes too many.
     pub edge: f64,
-    /// No more patches than this, as far as the faces themselves are not more: `edge` grows until they fit. A patch takes
-    /// about 450 bytes, and its links some kilobytes (see [`crate::Links`]).
+    /// No more patches than this of faces that are cut: `edge` grows until they fit. One for every side that stays whole comes on top,
+    /// so that many small things never leave large faces uncut. A patch takes about 450 bytes, and its links some kilobytes (see
+    /// [`crate::Links`]).
     pub most: usize,
 }
 
@@ -310,7 +311,8 @@ fn fitting(sides: &[([u32; 2], Side, Corners)], cut: &Cut) -> f64 {
     let mut edge = if cut.edge.is_finite() { cut.edge.max(longest / 65_536.0) } else { longest };
     loop {
         let mut left = cut.most;
-        if corners().all(|corners| fits(corners, edge, &mut left)) || edge > longest {
+        let mut cut = corners().filter(|corners| is_long(corners, edge));
+        if cut.all(|corners| fits(corners, edge, &mut left)) || edge > longest {
             return edge;
         }
         edge *= std::f64::consts::SQRT_2;

@@ -122,7 +122,8 @@ pub(super) fn describe(scene: &Scene, settings: &Settings, asked: Asked) -> Desc
         sun_horizontal,
         albedo: settings.number("sky.albedo") as f32,
         ground_height: match settings.choice("sky.ground") {
-            "open" => ground_height(&scene.geometry),
+            // Where surfaces light each other, the scene's own ground does so itself.
+            "open" if !super::interreflection::asked(settings) => ground_height(&scene.geometry),
             _ => None,
         },
         samples: settings.integer("sky.rays"),
