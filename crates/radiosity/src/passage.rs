@@ -109,11 +109,12 @@ impl<'a> Through<'a> {
             let Bent { leaving, toward, share, spread, .. } = apparent.bent;
             return a.normal.dot(toward).max(0.0) * tree.projected(b, leaving) * share * spread / PI;
         }
+        let middle = self.from_point(a.centre, a.normal, &b.corners);
         if a.radius == 0.0 || gap > FAR {
-            return self.from_point(a.centre, a.normal, &b.corners);
+            return middle;
         }
-        let halvings = if gap > NEAR { 0 } else { 2 };
-        self.rule(&a.corners, a.normal, &b.corners, halvings)
+        let three = self.rule(&a.corners, a.normal, &b.corners, 0);
+        if (three - middle).abs() <= EVEN { three } else { self.rule(&a.corners, a.normal, &b.corners, 2) }
     }
 
     /// Mean of three points on each of the 2ⁿ parts of a receiver.
@@ -176,5 +177,5 @@ const SLACK: f64 = 1.5;
 /// Distance in radii from which the middle of a receiver stands for all of it, as between patches without a surface.
 const FAR: f64 = 8.0;
 
-/// Distance in radii below which a receiver is cut in four.
-const NEAR: f64 = 3.0;
+/// Where the middle of a receiver and three points of it differ by no more, the three are taken as right to a tenth of that.
+const EVEN: f64 = 1e-3;

@@ -54,7 +54,7 @@ pub fn crossing(n: f64, height: f64, depth: f64, distance: f64) -> Crossing {
     let mut steps = 0;
     while steps < MOST_STEPS {
         steps += 1;
-        let root = n.hypot(bend * t);
+        let root = length(n, bend * t);
         let (missing, slope) = (r - h * t - d * t / root, h + d * n * n / (root * root * root));
         let step = missing / slope;
         if !(step > 0.0 && step.is_finite()) {
@@ -75,8 +75,8 @@ pub fn crossing(n: f64, height: f64, depth: f64, distance: f64) -> Crossing {
 fn at_tangent(n: f64, [h, d, r]: [f64; 3], t: f64, steps: u32) -> Crossing {
     let n2_less_1 = (n - 1.0) * (n + 1.0);
     // As shares of the secant: 1/√(1 + t²) and t/√(1 + t²).
-    let (cos_air, sin_air) =
-        if t.is_infinite() { (0.0, 1.0) } else { (1.0 / t.hypot(1.0), t / t.hypot(1.0)) };
+    let secant = length(1.0, t);
+    let (cos_air, sin_air) = if t.is_infinite() { (0.0, 1.0) } else { (1.0 / secant, t / secant) };
     let cos_water = (n2_less_1 + cos_air * cos_air).sqrt() / n;
     let under = if d == 0.0 { 0.0 } else { d * (sin_air / n) / cos_water };
     let run_water = under.min(r);
@@ -84,13 +84,19 @@ fn at_tangent(n: f64, [h, d, r]: [f64; 3], t: f64, steps: u32) -> Crossing {
     Crossing {
         run_air,
         run_water,
-        air: run_air.hypot(h),
-        water: run_water.hypot(d),
+        air: length(run_air, h),
+        water: length(run_water, d),
         cos_air,
         sin_air,
         cos_water,
         steps,
     }
+}
+
+/// √(a² + b²), without `hypot`'s care where squares are far from the ends of what f64 can hold.
+fn length(a: f64, b: f64) -> f64 {
+    let square = a * a + b * b;
+    if square > 1e-280 && square < 1e300 { square.sqrt() } else { a.hypot(b) }
 }
 
 /// The thesis' own way: linear interpolation (regula falsi) within the bracket \[r h/(h + d), r\] on eq. 3.15, `steps` times. Gives
