@@ -3,7 +3,7 @@
 //! **Answers.** What share of one patch's light meets another ([`form_factor()`], [`attenuated_form_factor`], from a point
 //! [`point_form_factor`])? What does every [`Patch`] of a scene receive from all others, over so many reflections ([`Links`],
 //! [`solve`])? And what arrives so at any place, as a [`light::Illuminate`] ([`Interreflected`])? A medium between patches
-//! ([`Attenuate`]) and ways over flat mirrors ([`Mirror`]: still water, from above or below) may be part of it.
+//! ([`Attenuate`]) and ways over flat mirrors ([`Mirror`]: still water, from above or below) or bent through them ([`Passage`]) may be part of it.
 //!
 //! **How.** Faces are halved into patches no larger than asked for ([`Cut`]). Every patch gathers from parts of the scene that
 //! are as large as they may be ([`Linking`]): halves of faces by exact form factors, groups of small faces far away as points.
@@ -19,7 +19,7 @@
 //! with two boxes and 16 ways a link by 0.5 and 0.4 %. Interpolated light is off by 2.3 % of the mean near edges, 0.7 % elsewhere
 //! (patches of 0.4 m, `share` 0.02).
 //!
-//! **Leaves out.** Reflection that is not diffuse; ways over two mirrors; light through surfaces; which lights there are ([`direct`]
+//! **Leaves out.** Reflection that is not diffuse; ways over two mirrors or through two surfaces, or one and the other; which lights there are ([`direct`]
 //! asks them). Patches are cut evenly, not where light changes.
 //!
 //! **Known to be wrong.** Contact shadows are as soft as patches are large. A wall that stands on a face without an edge there lets
