@@ -1,0 +1,2 @@
+//! Trees as turning planes, with shade and shadow.
+pub mod envelope;
