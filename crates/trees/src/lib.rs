@@ -1,2 +1,9 @@
 //! Trees as turning planes, with shade and shadow.
-pub mod envelope;
+mod envelope;
+mod region;
+mod sheet;
+mod species;
+
+pub use envelope::Envelope;
+pub use sheet::Sheet;
+pub use species::{Description, Leaf, Slice, Species, SpeciesError};
