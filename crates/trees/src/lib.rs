@@ -1,9 +1,22 @@
 //! Trees as turning planes, with shade and shadow.
+
 mod envelope;
+mod hierarchy;
+mod leaf;
+mod planes;
 mod region;
+mod seen;
+mod shadow;
 mod sheet;
 mod species;
+mod stand;
 
 pub use envelope::Envelope;
+pub use leaf::{Crossing, Shading};
+pub use planes::{Fade, Setting, Turn};
 pub use sheet::Sheet;
 pub use species::{Description, Leaf, Slice, Species, SpeciesError};
+pub use stand::{Placed, Stand, StandError};
+
+#[cfg(test)]
+mod stand_tests;

@@ -31,7 +31,9 @@ pub(crate) fn region(at: Vec2, size: f32, seed: u32) -> u32 {
     for (dy, dx) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dy, dx))) {
         let other = cell + Vec2::new(dx as f32, dy as f32);
         let number = scramble(
-            seed ^ scramble((other.x as i32 as u32).wrapping_add(scramble(other.y as i32 as u32 ^ 0x51ED_270B))),
+            seed ^ scramble(
+                (other.x as i32 as u32).wrapping_add(scramble(other.y as i32 as u32 ^ 0x51ED_270B)),
+            ),
         );
         let way = at - other - Vec2::new(random(number, 0), random(number, 1));
         let along = Vec2::from_angle(PI * random(number, 2));

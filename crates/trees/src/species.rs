@@ -252,12 +252,7 @@ pub(crate) mod tests {
             half_width: 4.0,
             side,
             slices: [8.0, 4.0, 6.0].map(slice).to_vec(),
-            leaf: Leaf {
-                size: 0.1,
-                reflectance: None,
-                transmittance: Spectrum::splat(0.05),
-                scatter: 1.0,
-            },
+            leaf: Leaf { size: 0.1, reflectance: None, transmittance: Spectrum::splat(0.05), scatter: 1.0 },
             extinction: None,
             seed: 1,
             envelope,
@@ -287,10 +282,7 @@ pub(crate) mod tests {
         refused(|d| d.side = picture(4, 4, |_, _| Some(255)), SpeciesError::NoAlpha);
         refused(|d| d.slices[0].height = 11.0, SpeciesError::SliceOutside);
         refused(|d| d.leaf.transmittance = Spectrum::splat(1.5), SpeciesError::NotAShare);
-        refused(
-            |d| d.envelope = Envelope::pencil(1.0, 20.0, 1.0).unwrap(),
-            SpeciesError::EnvelopeOutside,
-        );
+        refused(|d| d.envelope = Envelope::pencil(1.0, 20.0, 1.0).unwrap(), SpeciesError::EnvelopeOutside);
     }
 
     #[test]
