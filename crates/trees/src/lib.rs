@@ -1,5 +1,6 @@
 //! Trees as turning planes, with shade and shadow.
 
+mod bake;
 mod envelope;
 mod grow;
 mod hierarchy;
@@ -13,6 +14,7 @@ mod species;
 mod stand;
 mod tree_mesh;
 
+pub use bake::{Bake, BakeError, TRANSMITTANCE, bake};
 pub use envelope::Envelope;
 pub use grow::{Form, Growth, grow};
 pub use leaf::{Crossing, Shading};

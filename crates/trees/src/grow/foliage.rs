@@ -116,8 +116,7 @@ impl Foliage {
         let up = side.cross(way);
         let middle = stalk + way * (0.45 * long) + up * (0.12 * wide);
         let first = self.mesh.positions.len() as u32;
-        let corners =
-            [stalk, middle + side * (0.5 * wide), stalk + way * long, middle - side * (0.5 * wide)];
+        let corners = [stalk, middle + side * (0.5 * wide), stalk + way * long, middle - side * (0.5 * wide)];
         self.mesh.positions.extend(corners);
         // Lighter leaves are also a little yellower.
         let tint = shade * dice.between(0.85, 1.15);

@@ -60,9 +60,9 @@ fn continuations(nodes: &[Node]) -> Vec<Option<u32>> {
 /// Direction of the ring where a joint goes on along `axis`: between what comes and what goes.
 fn bend(nodes: &[Node], joint: u32, axis: Vec3) -> Vec3 {
     let node = &nodes[joint as usize];
-    let before = node.parent.map_or(axis, |parent| {
-        (node.position - nodes[parent as usize].position).normalize_or(axis)
-    });
+    let before = node
+        .parent
+        .map_or(axis, |parent| (node.position - nodes[parent as usize].position).normalize_or(axis));
     (before + axis).normalize_or(axis)
 }
 
