@@ -6,7 +6,7 @@ mod foliage;
 mod whorls;
 mod wood;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::envelope::Envelope;
 use crate::tree_mesh::{Part, TreeMesh};
@@ -55,10 +55,10 @@ impl Growth {
     /// A tree of a form with the proportions that are usual for it, `height` metres high.
     pub fn usual(form: Form, height: f32, seed: u32) -> Self {
         let (spread, clear, leaves, leaf) = match form {
-            Form::Spreading => (0.36, 0.2, 48_000, 0.1),
-            Form::Vase => (0.42, 0.28, 22_000, 0.075),
-            Form::Columnar => (0.105, 0.08, 42_000, 0.075),
-            Form::Conifer => (0.21, 0.05, 75_000, 0.085),
+            Form::Spreading => (0.38, 0.17, 66_000, 0.11),
+            Form::Vase => (0.45, 0.2, 34_000, 0.08),
+            Form::Columnar => (0.12, 0.06, 64_000, 0.085),
+            Form::Conifer => (0.22, 0.03, 74_000, 0.12),
         };
         let (green, bark) = match form {
             // Linear reflectances of the kind that PROSPECT gives for leaves, and of dry bark.
@@ -72,13 +72,25 @@ impl Growth {
 
     /// The outline that it fills, about.
     pub fn envelope(&self) -> Option<Envelope> {
-        let (base, top, radius) = (self.clear, self.height, self.spread);
-        match self.form {
-            Form::Spreading => Envelope::ellipsoid(base, top, radius),
-            Form::Vase => Envelope::inverted_cone(base, top, radius),
-            Form::Columnar => Envelope::pencil(base, top, radius),
-            Form::Conifer => Envelope::fitted(&[glam::Vec2::new(base, radius), glam::Vec2::new(top, 0.0)]),
-        }
+        let (base, crown, radius) = (self.clear, self.height - self.clear, self.spread);
+        // (share of the crown's height, share of its radius).
+        let outline: &[[f32; 2]] = match self.form {
+            Form::Spreading => &[
+                [0.0, 0.25],
+                [0.1, 0.68],
+                [0.25, 0.93],
+                [0.42, 1.0],
+                [0.62, 0.9],
+                [0.82, 0.62],
+                [0.94, 0.34],
+                [1.0, 0.1],
+            ],
+            Form::Vase => &[[0.0, 0.06], [0.4, 0.55], [0.7, 0.95], [0.8, 1.0], [0.9, 0.85], [1.0, 0.35]],
+            Form::Columnar => &[[0.0, 0.35], [0.12, 0.8], [0.3, 1.0], [0.6, 0.9], [0.85, 0.5], [1.0, 0.08]],
+            Form::Conifer => &[[0.0, 0.85], [0.06, 1.0], [1.0, 0.0]],
+        };
+        let knot = |[up, out]: &[f32; 2]| Vec2::new(base + up * crown, out * radius);
+        Envelope::fitted(&outline.iter().map(knot).collect::<Vec<_>>())
     }
 }
 

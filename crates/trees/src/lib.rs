@@ -6,6 +6,7 @@ mod grow;
 mod hierarchy;
 mod leaf;
 mod planes;
+pub mod reference;
 mod region;
 mod seen;
 mod shadow;

@@ -1,6 +1,7 @@
 //! The picture on a plane: colour, alpha, and where there are leaves.
 
 use glam::{Vec2, Vec3};
+use light::colour::{decode_srgb, encode_srgb};
 use light::{Texture, Wrap};
 
 /// The picture on a plane of a tree: reflectance and alpha, filtered premultiplied; beyond its edges there is nothing.
@@ -21,7 +22,7 @@ impl Sheet {
         if texels.len() != count || !(leaves.is_empty() || leaves.len() == count) {
             return None;
         }
-        let linear: [f32; 256] = std::array::from_fn(|code| linear(code as f32 / 255.0));
+        let linear: [f32; 256] = std::array::from_fn(|code| decode_srgb(code as f32 / 255.0));
         let texture = Texture::from_rows(width, height, [Wrap::Clamp; 2], |y, row| {
             for (to, from) in row.iter_mut().zip(&texels[y as usize * width as usize..]) {
                 let [r, g, b, a] = *from;
@@ -48,7 +49,7 @@ impl Sheet {
         let texel = |i: u32| {
             let at = Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5);
             let (rgb, alpha) = self.texture.sample(at / Vec2::new(width as f32, height as f32), 0.0);
-            let [r, g, b] = rgb.to_array().map(|share| code(encoded(share)));
+            let [r, g, b] = rgb.to_array().map(|share| code(encode_srgb(share)));
             [r, g, b, code(alpha)]
         };
         (0..width * height).map(texel).collect()
@@ -93,7 +94,7 @@ impl Sheet {
         for (i, [r, g, b, a]) in self.texels().into_iter().enumerate() {
             if self.leaves.get(i).is_none_or(|mask| *mask >= 128) {
                 let alpha = f64::from(a) / 255.0;
-                let colour = Vec3::from([r, g, b].map(|code| linear(f32::from(code) / 255.0)));
+                let colour = Vec3::from([r, g, b].map(|code| decode_srgb(f32::from(code) / 255.0)));
                 sum += colour.as_dvec3() * alpha;
                 weight += alpha;
             }
@@ -110,16 +111,6 @@ impl Sheet {
 
 fn on(uv: Vec2) -> bool {
     uv.cmpge(Vec2::ZERO).all() && uv.cmple(Vec2::ONE).all()
-}
-
-/// The linear share of an sRGB code within \[0, 1\] (IEC 61966-2-1).
-fn linear(code: f32) -> f32 {
-    if code <= 0.040_45 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
-}
-
-/// The inverse.
-pub(crate) fn encoded(share: f32) -> f32 {
-    if share <= 0.003_130_8 { share * 12.92 } else { 1.055 * share.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! A tree seen from infinitely far, by a depth buffer.
 
 use glam::{DVec2, Vec2, Vec3};
+use light::colour::encode_srgb;
 
 use crate::region::random;
-use crate::sheet::{Sheet, encoded};
+use crate::sheet::Sheet;
 use crate::tree_mesh::{Part, TreeMesh};
 
 /// A picture plane.
@@ -68,7 +69,7 @@ fn resolve(buffer: &[Sample], [width, height]: [u32; 2], samples: usize) -> Opti
             }
         }
         let code = |share: f32| (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-        let [r, g, b] = (colour / count.max(1) as f32).to_array().map(|share| code(encoded(share)));
+        let [r, g, b] = (colour / count.max(1) as f32).to_array().map(|share| code(encode_srgb(share)));
         texels.push([r, g, b, code(count as f32 / (samples * samples) as f32)]);
         leaves.push(if 2 * leafy >= count { 255 } else { 0 });
     }

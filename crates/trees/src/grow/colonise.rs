@@ -20,8 +20,8 @@ struct Habit {
 
 fn habit(form: Form) -> Habit {
     match form {
-        Form::Vase => Habit { places: 1100, clustered: 0.75, rise: 0.35, stem: 0.3 },
-        Form::Columnar => Habit { places: 1500, clustered: 0.2, rise: 1.1, stem: 0.9 },
+        Form::Vase => Habit { places: 1300, clustered: 0.7, rise: 0.3, stem: 0.24 },
+        Form::Columnar => Habit { places: 1500, clustered: 0.2, rise: 1.4, stem: 0.9 },
         Form::Spreading | Form::Conifer => Habit { places: 1500, clustered: 0.65, rise: 0.12, stem: 0.5 },
     }
 }
@@ -70,7 +70,7 @@ pub(super) fn skeleton(growth: &Growth, envelope: &Envelope, dice: &mut Dice) ->
             break;
         }
     }
-    thicken(&mut nodes, 0.004 * (growth.height / 10.0).sqrt(), 2.35);
+    thicken(&mut nodes, 0.005 * (growth.height / 10.0).sqrt(), 2.2);
     nodes
 }
 

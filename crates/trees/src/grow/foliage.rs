@@ -10,7 +10,7 @@ use crate::envelope::Envelope;
 const ON_TWIG: u32 = 9;
 
 /// Branches no thicker than this, in a tree 10 m high, bear twigs \[m\].
-const TWIGGY: f32 = 0.014;
+const TWIGGY: f32 = 0.016;
 
 /// Leaves as folded diamonds of two triangles each.
 #[derive(Default)]
@@ -95,7 +95,7 @@ impl Foliage {
                 let way = (along * dice.between(0.7, 1.3) + around).normalize_or(along);
                 let normal = dice.direction().reject_from(way).normalize_or(Vec3::Y);
                 let tuft = growth.leaf * dice.between(0.75, 1.2);
-                self.leaf(below + along * left, way, normal, [tuft, 0.28 * tuft], shade, dice);
+                self.leaf(below + along * left, way, normal, [tuft, 0.4 * tuft], shade, dice);
                 left += spacing;
             }
             left -= long;
