@@ -24,13 +24,15 @@ fn main() {
         let species = species(&mesh, 4, 768);
         let d = species.description();
         println!(
-            "{name}: {} triangles, {:?} texels, {:.1} MB, extinction {:.2}/m, leaf {:.3} m, scatter {:.2}, half width {:.2} m",
+            "{name}: {} triangles, {:?} texels, {:.1} MB, extinction {:.2}/m, leaf {:.3} m, scatter {:.2}, lean {:.2}, shelter {:.2}, half width {:.2} m",
             mesh.triangle_count(),
             d.side.size(),
             species.bytes() as f64 / 1e6,
             species.extinction(),
             d.leaf.size,
             d.leaf.scatter,
+            d.leaf.lean,
+            d.shelter,
             d.half_width
         );
         let stand = alone(species, Setting::default());

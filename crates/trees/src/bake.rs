@@ -2,6 +2,7 @@
 
 mod fit;
 mod raster;
+mod shelter;
 
 use std::fmt;
 
@@ -112,15 +113,16 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
         .collect::<Option<Vec<_>>>()
         .ok_or(BakeError::Size)?;
     let envelope = leaves.envelope().ok_or(BakeError::Empty)?;
-    let scatter = scatter_of(leaves.outwardness(&envelope));
+    let (lean, straight) = leaves.facing(&envelope);
     let mean = mean_reflectance(&side);
     let leaf = Leaf {
         size: bake.leaf.unwrap_or(leaves.size),
         reflectance: None,
         transmittance: bake.transmittance.unwrap_or(mean * TRANSMITTANCE),
-        scatter,
+        scatter: scatter_of(straight),
+        lean,
     };
-    Species::new(Description {
+    let species = Species::new(Description {
         height,
         half_width,
         side,
@@ -128,9 +130,12 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
         envelope,
         leaf,
         extinction: None,
+        shelter: 1.0,
         seed: bake.seed,
     })
-    .map_err(BakeError::Species)
+    .map_err(BakeError::Species)?;
+    let shelter = shelter::fitted(tree, &species);
+    Ok(species.sheltered(shelter))
 }
 
 fn mean_reflectance(side: &Sheet) -> Spectrum {

@@ -16,6 +16,8 @@ pub enum Fade {
     /// tangent. At 45° both are whole, and dense crowns stay opaque. Still continuous in θ.
     #[default]
     Opaque,
+    /// Square.
+    Square,
 }
 
 impl Fade {
@@ -25,6 +27,7 @@ impl Fade {
         match self {
             Self::Thesis => cos,
             Self::Opaque => cos / cos.max((1.0 - cos * cos).sqrt()),
+            Self::Square => (cos / cos.max((1.0 - cos * cos).sqrt())).powi(2),
         }
     }
 }

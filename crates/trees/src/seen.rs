@@ -31,7 +31,8 @@ impl Traverse for Stand {
                     asked
                 });
                 let species = &self.species[self.trees[crossing.tree as usize].species as usize];
-                added += leaf::radiance(crossing, species, self.shading, &fields, around) * share;
+                let lit = (&fields, -ray.direction);
+                added += leaf::radiance(crossing, species, self.shading, lit, around) * share;
                 shaded += share;
             } else {
                 added += added * (share / shaded);

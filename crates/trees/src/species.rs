@@ -21,6 +21,16 @@ pub struct Leaf {
     pub transmittance: Spectrum,
     /// How irregularly leaves face: a of thesis eq. 5.6, > 0.
     pub scatter: f32,
+    /// How much leaves turn their faces to the sky instead of outwards, ≥ 0: they scatter about n + lean · Y, n the crown's
+    /// outward normal. 0 as in the thesis; for most broad leaves 1 to 8.
+    pub lean: f32,
+}
+
+impl Leaf {
+    /// Unit vector that leaves scatter about where the crown faces `outward`.
+    pub(crate) fn axis(&self, outward: Vec3) -> Vec3 {
+        (outward + Vec3::Y * self.lean).try_normalize().unwrap_or(Vec3::Y)
+    }
 }
 
 /// A view from above of the part of a crown around one height, on its horizontal plane.
@@ -49,6 +59,9 @@ pub struct Description {
     pub leaf: Leaf,
     /// Share of light that leaves stop, per metre of crown \[1/m\]; none = fitted to the side view's alpha.
     pub extinction: Option<f32>,
+    /// How many times the crown's extinction light meets on its way to leaves that show, > 0: more than 1 where leaves stand
+    /// in clumps.
+    pub shelter: f32,
     /// Decides everything random.
     pub seed: u32,
 }
@@ -145,9 +158,26 @@ impl Species {
         (reflected * scale, passed * scale)
     }
 
-    /// Share of light that the crown's leaves let through along the first `reach` metres of a line (Lambert-Beer).
+    /// Share of light that the crown's leaves let through along the first `reach` metres of a line that ends in the crown
+    /// (Lambert-Beer).
     pub(crate) fn through_crown(&self, origin: Vec3, direction: Vec3, reach: f32) -> f32 {
-        (-self.extinction * self.description.envelope.chord(origin, direction, reach)).exp()
+        let extinction = self.extinction * self.description.shelter;
+        (-extinction * self.description.envelope.chord(origin, direction, reach)).exp()
+    }
+
+    /// Depth in the crown \[m\] of the leaf that a line shows after entering it, for a share `u` within \[0, 1) of leaves that lie
+    /// less deep, where the line stays in it for `length` metres.
+    ///
+    ///   s = −ln(1 − u (1 − exp(−k length)))/k
+    pub(crate) fn depth(&self, u: f32, length: f32) -> f32 {
+        let k = self.extinction;
+        (-(1.0 - u * (1.0 - (-k * length).exp())).ln() / k).min(length)
+    }
+
+    /// The same species with another shelter.
+    pub(crate) fn sheltered(mut self, shelter: f32) -> Self {
+        self.description.shelter = shelter;
+        self
     }
 
     /// True in the crown and around the trunk below it: where a plane of the tree cannot say what is in the way, because
@@ -175,6 +205,7 @@ fn check(d: &Description) -> Result<(), SpeciesError> {
         (d.leaf.size, "leaf size"),
         (d.leaf.scatter, "scatter"),
         (d.extinction.unwrap_or(1.0), "extinction"),
+        (d.shelter, "shelter"),
     ];
     if let Some((_, name)) = lengths.into_iter().find(|(value, _)| !(value.is_finite() && *value > 0.0)) {
         return Err(SpeciesError::NotPositive(name));
@@ -185,6 +216,9 @@ fn check(d: &Description) -> Result<(), SpeciesError> {
     }
     // A hundredth of the height for the roundings of fits.
     let inside = |height: f32| height >= -0.01 * d.height && height <= 1.01 * d.height;
+    if !(d.leaf.lean.is_finite() && d.leaf.lean >= 0.0) {
+        return Err(SpeciesError::NotPositive("lean"));
+    }
     if !d.slices.iter().all(|slice| inside(slice.height)) {
         return Err(SpeciesError::SliceOutside);
     }
@@ -252,8 +286,15 @@ pub(crate) mod tests {
             half_width: 4.0,
             side,
             slices: [8.0, 4.0, 6.0].map(slice).to_vec(),
-            leaf: Leaf { size: 0.1, reflectance: None, transmittance: Spectrum::splat(0.05), scatter: 1.0 },
+            leaf: Leaf {
+                size: 0.1,
+                reflectance: None,
+                transmittance: Spectrum::splat(0.05),
+                scatter: 1.0,
+                lean: 0.5,
+            },
             extinction: None,
+            shelter: 1.0,
             seed: 1,
             envelope,
         }

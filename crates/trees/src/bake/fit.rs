@@ -125,13 +125,20 @@ impl Leaves {
         found.map_or(0.0, |(radius, _)| *radius)
     }
 
-    /// Mean |cosine| between leaves' normals and the envelope's.
-    pub(super) fn outwardness(&self, envelope: &Envelope) -> f32 {
-        let (mut sum, mut total) = (0.0, 0.0);
-        for face in &self.faces {
-            sum += face.area * face.normal.dot(envelope.normal(face.centre)).abs();
-            total += face.area;
-        }
-        sum / total
+    /// The lean (see [`crate::Leaf`]) whose axes leaves' normals keep closest to, and their mean |cosine| to these.
+    pub(super) fn facing(&self, envelope: &Envelope) -> (f32, f32) {
+        let total: f32 = self.faces.iter().map(|face| face.area).sum();
+        let outward: Vec<Vec3> = self.faces.iter().map(|face| envelope.normal(face.centre)).collect();
+        let straight = |lean: f32| {
+            let cos = |(face, outward): (&Face, &Vec3)| {
+                face.area * face.normal.dot((*outward + Vec3::Y * lean).normalize_or(Vec3::Y)).abs()
+            };
+            self.faces.iter().zip(&outward).map(cos).sum::<f32>() / total
+        };
+        let tried = LEANS.map(|lean| (lean, straight(lean)));
+        tried.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, 0.5))
     }
 }
+
+/// Leans that are tried: from outwards to straight up.
+const LEANS: [f32; 9] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5, 5.0, 10.0];

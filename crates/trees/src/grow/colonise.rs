@@ -21,13 +21,16 @@ struct Habit {
 fn habit(form: Form) -> Habit {
     match form {
         Form::Vase => Habit { places: 1300, clustered: 0.7, rise: 0.3, stem: 0.24 },
-        Form::Columnar => Habit { places: 1500, clustered: 0.2, rise: 1.4, stem: 0.9 },
+        Form::Columnar => Habit { places: 1500, clustered: 0.2, rise: 0.8, stem: 0.92 },
         Form::Spreading | Form::Conifer => Habit { places: 1500, clustered: 0.65, rise: 0.12, stem: 0.5 },
     }
 }
 
 /// Growth stops after so many rounds.
 const ROUNDS: usize = 400;
+
+/// Branches from one joint, at most: a place that a steep habit cannot reach pulls in vain.
+const SPROUTS: u8 = 3;
 
 /// The most joints.
 const MOST: usize = 20_000;
@@ -47,17 +50,19 @@ pub(super) fn skeleton(growth: &Growth, envelope: &Envelope, dice: &mut Dice) ->
         .into_iter()
         .map(|at| Place { at, nearest: 0, distance: f32::INFINITY })
         .collect();
-    let mut known = 0;
+    let (mut known, mut sprouts) = (0, Vec::new());
     for _ in 0..ROUNDS {
         look(&mut places, &nodes, &mut known, 1.8 * step);
         let pulls = pulls(&places, &nodes);
         let before = nodes.len();
+        sprouts.resize(before, 0);
         for (parent, pull) in pulls.into_iter().enumerate() {
             let Some(pull) = pull.try_normalize() else { continue };
             // Branches do not leave the stem below the crown.
-            if nodes[parent].position.y < growth.clear || nodes.len() >= MOST {
+            if nodes[parent].position.y < growth.clear || sprouts[parent] == SPROUTS || nodes.len() >= MOST {
                 continue;
             }
+            sprouts[parent] += 1;
             let way = pull + Vec3::Y * habit.rise + dice.ball() * 0.35;
             let Some(way) = way.try_normalize() else { continue };
             nodes.push(Node {

@@ -58,7 +58,7 @@ fn branch(growth: &Growth, nodes: &mut Vec<Node>, stem: u32, azimuth: f32, dice:
 fn branchlets(nodes: &mut Vec<Node>, joint: u32, out: Vec3, longest: f32, dice: &mut Dice) {
     let across = Vec3::new(-out.z, 0.0, out.x);
     for side in [-1.0, 1.0] {
-        let way = out * dice.between(0.5, 0.9) + across * side + Vec3::Y * dice.between(-0.6, 0.05);
+        let way = out * dice.between(0.5, 0.9) + across * side + Vec3::Y * dice.between(-0.5, 0.05);
         let tip = nodes[joint as usize].position + way.normalize_or(out) * longest * dice.between(0.7, 1.1);
         nodes.push(Node { position: tip, parent: Some(joint), radius: 0.0015 });
     }
