@@ -1,6 +1,6 @@
 //! Planes against the mesh they were baked from: distance × elevation × number of planes.
 //!
-//! `cargo run --release -p keikan-trees --example planes_against_mesh [thesis|opaque] [with-eye|fixed]`
+//! `cargo run --release -p keikan-trees --example planes_against_mesh [thesis|opaque|density] [with-eye|fixed]`
 //!
 //! Columns: mean luminance of what shows (planes / mesh); share of the view hidden (planes / mesh) and root mean square
 //! of the difference of alpha over the tree's rectangle; light of a sun at this elevation that the tree takes from the ground
@@ -133,10 +133,10 @@ fn main() {
     let has = |word: &str| words.iter().any(|w| w == word);
     let fade = if has("thesis") {
         Fade::Thesis
-    } else if has("square") {
-        Fade::Square
-    } else {
+    } else if has("opaque") {
         Fade::Opaque
+    } else {
+        Fade::Density
     };
     let turn = if has("with-eye") { Turn::WithEye } else { Turn::Fixed };
     let setting = Setting { fade, turn };

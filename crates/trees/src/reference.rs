@@ -36,6 +36,9 @@ struct Node {
     count: u32,
 }
 
+/// Told of every face that a line cuts: which, how far away, with which barycentric weights; may shorten what is left of the line.
+type Meet<'a> = dyn FnMut(Face, f64, [f32; 3], &mut f64) + 'a;
+
 /// What a ray meets.
 #[derive(Clone, Copy, Debug)]
 pub struct Met {
@@ -104,13 +107,7 @@ impl<'a> Reference<'a> {
         part.mesh.opacity.as_ref().map_or(1.0, |opacity| opacity.at(uv(part, face.index, at), 0.0))
     }
 
-    fn walk(
-        &self,
-        origin: DVec3,
-        direction: DVec3,
-        reach: &mut f64,
-        meet: &mut dyn FnMut(Face, f64, [f32; 3], &mut f64),
-    ) {
+    fn walk(&self, origin: DVec3, direction: DVec3, reach: &mut f64, meet: &mut Meet) {
         let mut open = Vec::with_capacity(64);
         open.extend((!self.nodes.is_empty()).then_some(0u32));
         let inverse = direction.map(|d| if d == 0.0 { 1e300 } else { 1.0 / d });

@@ -112,6 +112,8 @@ pub struct Species {
     /// Transmittance over reflectance of leaves.
     through: Spectrum,
     extinction: f32,
+    /// Of the side view within the envelope.
+    pub(crate) mean_alpha: f32,
     /// Of the side view \[1/m\].
     pub(crate) texels_per_metre: f32,
 }
@@ -128,9 +130,18 @@ impl Species {
         let mean = description.side.mean_leaf().map_or(Spectrum::ZERO, Spectrum::reflectance);
         let gain = leaf.reflectance.map_or(Spectrum::ONE, |wanted| ratio(wanted, mean));
         let through = ratio(leaf.transmittance, leaf.reflectance.unwrap_or(mean));
-        let extinction = description.extinction.unwrap_or_else(|| fitted_extinction(&description));
+        let (fitted, mean_alpha) = fitted_extinction(&description);
+        let extinction = description.extinction.unwrap_or(fitted);
         let texels_per_metre = description.side.size()[1] as f32 / description.height;
-        Ok(Self { crowd: Crowd::new(leaf.scatter), gain, through, extinction, texels_per_metre, description })
+        Ok(Self {
+            crowd: Crowd::new(leaf.scatter),
+            gain,
+            through,
+            extinction,
+            mean_alpha,
+            texels_per_metre,
+            description,
+        })
     }
 
     /// What it was made from, slices sorted by height.
@@ -237,8 +248,8 @@ fn check(d: &Description) -> Result<(), SpeciesError> {
     }
 }
 
-/// The extinction with which a crown of even density inside the envelope has the side view's mean alpha.
-fn fitted_extinction(d: &Description) -> f32 {
+/// The extinction with which a crown of even density inside the envelope has the side view's mean alpha, and that.
+fn fitted_extinction(d: &Description) -> (f32, f32) {
     const GRID: usize = 48;
     let ([low, high], widest) = (d.envelope.heights(), d.envelope.widest());
     let mut chords = Vec::with_capacity(GRID * GRID);
@@ -260,7 +271,7 @@ fn fitted_extinction(d: &Description) -> f32 {
         let k = 0.5 * (none + most);
         if stopped(k) < opaque { none = k } else { most = k }
     }
-    0.5 * (none + most)
+    (0.5 * (none + most), opaque / chords.len().max(1) as f32)
 }
 
 #[cfg(test)]

@@ -53,9 +53,9 @@ fn stand(count: u32, side: f32) -> Stand {
 }
 
 fn settings() -> [Setting; 4] {
-    let both = |fade| [Turn::WithEye, Turn::Fixed].map(|turn| Setting { fade, turn });
-    let [[a, b], [c, d]] = [Fade::Thesis, Fade::Opaque].map(both);
-    [a, b, c, d]
+    let [a, b, c] = [Fade::Thesis, Fade::Opaque, Fade::Density];
+    let set = |(fade, turn)| Setting { fade, turn };
+    [(a, Turn::WithEye), (b, Turn::Fixed), (c, Turn::WithEye), (c, Turn::Fixed)].map(set)
 }
 
 fn ray(from: [f32; 3], to: [f32; 3]) -> Ray {
