@@ -7,8 +7,7 @@ use light::{Mesh, Occlude, Opacity, Ray, Texture, Wrap};
 
 use crate::reference::Reference;
 use crate::{
-    Bake, BakeError, Description, Form, Growth, Part, Placed, Sheet, Species, SpeciesError, Stand, TreeMesh,
-    bake, grow,
+    Bake, BakeError, Description, Form, Growth, Part, Placed, Sheet, Species, Stand, TreeMesh, bake, grow,
 };
 
 /// A rectangle about `centre` with half sides `x` and `y`.

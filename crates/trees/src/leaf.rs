@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::Vec3;
 use light::{Arrival, Place, Spectrum, Surroundings};
 
-use crate::planes::{Cross, Planes};
+use crate::planes::Cross;
 use crate::region::{self, CROWD, random};
 use crate::species::Species;
 use crate::stand::Placed;
@@ -51,7 +51,8 @@ pub(crate) struct Met<'a> {
     pub(crate) tree: u32,
     pub(crate) placed: &'a Placed,
     pub(crate) species: &'a Species,
-    pub(crate) planes: &'a Planes,
+    /// Where its vertical plane faces.
+    pub(crate) facing: Vec3,
     pub(crate) line: (Vec3, Vec3),
     /// The world's metres in one of the tree's.
     pub(crate) scale: f32,
@@ -111,8 +112,7 @@ impl Met<'_> {
     /// The same for bark: on the plane, facing the viewer.
     fn bark(&self, cross: &Cross) -> (Vec3, Vec3) {
         let (origin, direction) = self.line;
-        let facing = self.planes.facing;
-        let facing = if facing.dot(direction) > 0.0 { -facing } else { facing };
+        let facing = if self.facing.dot(direction) > 0.0 { -self.facing } else { self.facing };
         (origin + direction * cross.t, facing)
     }
 }

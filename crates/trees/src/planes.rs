@@ -73,6 +73,8 @@ pub(crate) enum Aim {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     aim: Aim,
+    /// Of the vertical plane and, for parallel rays, of all horizontal ones.
+    opacities: [f32; 2],
     fade: Fade,
     /// Mean alpha of the crown.
     mean: f32,
@@ -116,14 +118,18 @@ impl Planes {
             Turn::WithEye => Vec2::new(facing.z, -facing.x),
             Turn::Fixed => Vec2::X,
         };
-        Self {
+        let rotation = Vec2::from_angle(placed.rotation);
+        let mut planes = Self {
             aim,
+            opacities: [0.0; 2],
             fade: setting.fade,
             mean: species.mean_alpha,
             facing,
-            lying: Vec2::from_angle(placed.rotation).rotate(turned),
-            hand: if placed.rotation.sin() < 0.0 { -1.0 } else { 1.0 },
-        }
+            lying: rotation.rotate(turned),
+            hand: if rotation.y < 0.0 { -1.0 } else { 1.0 },
+        };
+        planes.opacities = [planes.opacity(facing, middle), planes.opacity(Vec3::Y, middle)];
+        planes
     }
 
     /// Opacity of a plane of unit normal `normal` about `centre`.
@@ -153,7 +159,7 @@ impl Planes {
             let point = origin + direction * t;
             let at = Vec2::new((point.x * self.facing.z - point.z * self.facing.x) * self.hand, point.y);
             let uv = Vec2::new(0.5 + at.x / width, 1.0 - at.y / height);
-            let opacity = self.opacity(self.facing, Vec3::Y * (0.5 * height));
+            let opacity = self.opacities[0];
             if opacity > 0.0 && within(uv) {
                 receive(Cross { t, slice: None, uv, at, opacity, cos: cos.abs() });
             }
@@ -167,9 +173,15 @@ impl Planes {
             let level = Vec2::new(point.x, point.z);
             let at = Vec2::new(level.dot(self.lying), level.dot(self.lying.perp()));
             let uv = at / width + 0.5;
-            let opacity = self.opacity(Vec3::Y, Vec3::Y * slice.height);
             // Their corners are beyond what any direction's side view shows.
-            if opacity > 0.0 && at.length_squared() < tree.half_width * tree.half_width {
+            if at.length_squared() >= tree.half_width * tree.half_width {
+                continue;
+            }
+            let opacity = match self.aim {
+                Aim::Along(_) => self.opacities[1],
+                Aim::Eye(_) => self.opacity(Vec3::Y, Vec3::Y * slice.height),
+            };
+            if opacity > 0.0 {
                 receive(Cross { t, slice: Some(i as u32), uv, at, opacity, cos: direction.y.abs() });
             }
         }

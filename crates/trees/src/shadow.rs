@@ -1,6 +1,6 @@
 //! Shadow planes: what a stand lets through of light (thesis 5.3.3).
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use light::{Occlude, PointSource, Ray, Spectrum, Stretch};
 
 use crate::hierarchy::{self, Probe};
@@ -8,7 +8,7 @@ use crate::planes::{Aim, Planes};
 use crate::stand::Stand;
 
 /// Less than this counts as nothing.
-const DARK: f64 = 1e-6;
+const DARK: f64 = 1e-5;
 
 impl Stand {
     /// Share of light that one tree lets through along a segment.
@@ -18,6 +18,13 @@ impl Stand {
     /// between: there the crown is a cloud of leaves (Lambert-Beer in the envelope).
     pub(crate) fn through(&self, tree: u32, segment: &Ray) -> f32 {
         let (species, placed, line, scale) = self.local(tree, segment);
+        // Boxes have corners; planes turn in a cylinder.
+        let level = Vec2::new(line.1.x, line.1.z);
+        let aside = Vec2::new(line.0.x, line.0.z).perp_dot(level);
+        let radius = species.description().half_width;
+        if aside * aside > radius * radius * level.length_squared() * 1.0001 {
+            return 1.0;
+        }
         let reach = segment.length / scale;
         let ends_inside = reach.is_finite() && species.holds(line.0 + line.1 * reach);
         if ends_inside || species.holds(line.0) {

@@ -7,8 +7,8 @@ use glam::Vec3;
 use light::{Path, Ray};
 
 use crate::hierarchy::{self, Inside, Node, Probe};
-use crate::leaf::{self, Crossing, Shading};
-use crate::planes::{Aim, Planes, Setting};
+use crate::leaf::{Crossing, Met, Shading};
+use crate::planes::{Aim, Cross, Planes, Setting};
 use crate::species::Species;
 
 /// One tree: 24 bytes.
@@ -139,8 +139,10 @@ impl Stand {
                         }
                     }
                 },
-                What::Crossing(crossing) => {
-                    if !receive(&crossing) {
+                What::Cross(tree, cross, facing) => {
+                    if let Some(crossing) = self.look(tree, &cross, facing, (ray, path))
+                        && !receive(&crossing)
+                    {
                         return;
                     }
                 }
@@ -154,27 +156,30 @@ impl Stand {
         let mut queue = BinaryHeap::new();
         self.cross(tree, ray, path, &mut queue);
         let crossing = |next: Next| match next.what {
-            What::Crossing(crossing) => Some(crossing),
+            What::Cross(tree, cross, facing) => self.look(tree, &cross, facing, (ray, path)),
             What::Node(_) => None,
         };
         queue.into_iter().filter_map(crossing).collect()
     }
 
-    /// All crossings with one tree.
+    /// Where a ray crosses the planes of one tree.
     fn cross(&self, tree: u32, ray: &Ray, path: &Path, queue: &mut BinaryHeap<Next>) {
         let (species, placed, line, scale) = self.local(tree, ray);
         let aim = if path.spread > 0.0 { Aim::Eye(line.0) } else { Aim::Along(line.1) };
         let planes = Planes::new(species, placed, aim, self.setting);
         planes.cross(species, line, ray.length / scale, |cross| {
-            let width = path.width_at(cross.t * scale) / scale;
-            let (colour, alpha) = cross.sheet(species).sample(cross.uv, cross.texels(species, width));
-            let opacity = alpha * cross.opacity;
-            if opacity > 0.0 {
-                let crossing = leaf::Met { tree, placed, species, planes: &planes, line, scale, width }
-                    .crossing(&cross, colour, opacity);
-                queue.push(Next { at: crossing.distance, what: What::Crossing(crossing) });
-            }
+            queue.push(Next { at: cross.t * scale, what: What::Cross(tree, cross, planes.facing) });
         });
+    }
+
+    /// What is on a plane where a ray crosses it; none where its picture is clear.
+    fn look(&self, tree: u32, cross: &Cross, facing: Vec3, (ray, path): (&Ray, &Path)) -> Option<Crossing> {
+        let (species, placed, line, scale) = self.local(tree, ray);
+        let width = path.width_at(cross.t * scale) / scale;
+        let (colour, alpha) = cross.sheet(species).sample(cross.uv, cross.texels(species, width));
+        let opacity = alpha * cross.opacity;
+        let met = Met { tree, placed, species, facing, line, scale, width };
+        (opacity > 0.0).then(|| met.crossing(cross, colour, opacity))
     }
 }
 
@@ -186,7 +191,8 @@ struct Next {
 
 enum What {
     Node(u32),
-    Crossing(Crossing),
+    /// Of a tree's plane, with where its vertical plane faces.
+    Cross(u32, Cross, Vec3),
 }
 
 impl Next {
@@ -194,7 +200,7 @@ impl Next {
     fn key(&self) -> (u8, u32, u32) {
         match &self.what {
             What::Node(node) => (0, *node, 0),
-            What::Crossing(crossing) => (1, crossing.tree, crossing.slice.map_or(0, |i| i + 1)),
+            What::Cross(tree, cross, _) => (1, *tree, cross.slice.map_or(0, |i| i + 1)),
         }
     }
 }

@@ -69,15 +69,26 @@ impl Leaves {
         Some(Self { faces, reach, size: size.min(0.2 * reach.0) })
     }
 
-    /// Height below which a share of the leaves' area lies.
-    fn quantile(&self, share: f32) -> f32 {
+    /// The lowest leaf with which a share of the leaves' area is reached.
+    fn reached(&self, share: f32) -> usize {
         let total: f32 = self.faces.iter().map(|face| face.area).sum();
         let mut left = share * total;
-        let found = self.faces.iter().find(|face| {
+        let found = self.faces.iter().position(|face| {
             left -= face.area;
             left <= 0.0
         });
-        found.or(self.faces.last()).map_or(0.0, |face| face.centre.y)
+        found.unwrap_or(self.faces.len() - 1)
+    }
+
+    /// Height below which a share of the leaves' area lies.
+    fn quantile(&self, share: f32) -> f32 {
+        self.faces[self.reached(share)].centre.y
+    }
+
+    /// The same between two leaves, where it cuts none that lie level.
+    fn between(&self, share: f32) -> f32 {
+        let at = self.reached(share);
+        0.5 * (self.faces[at.saturating_sub(1)].centre.y + self.faces[at].centre.y)
     }
 
     /// Planes that share the leaves equally, each with the range of heights \[m\] that it shows.
@@ -85,7 +96,7 @@ impl Leaves {
         let border = |i: u32| match i {
             0 => f32::NEG_INFINITY,
             i if i == planes => f32::INFINITY,
-            i => self.quantile(i as f32 / planes as f32),
+            i => self.between(i as f32 / planes as f32),
         };
         let plane = |i: u32| self.quantile((i as f32 + 0.5) / planes as f32);
         (0..planes).map(|i| (plane(i), [border(i), border(i + 1)])).collect()
