@@ -1,0 +1,102 @@
+//! Whether anything jumps: an orbit of 360 frames round a tree and a day of 200, as planes and as mesh.
+//!
+//! `cargo run --release -p keikan-trees --example orbit [poplar|lime|zelkova|spruce]`
+//!
+//! For each frame the mean luminance and the mean share hidden over the picture; printed are the largest change from one
+//! frame to the next, over the mean, and the largest root mean square change of a pixel's luminance.
+
+mod common;
+
+use common::*;
+use glam::{DVec2, DVec3, Vec3};
+use keikan_trees::{Setting, Shading, Turn, reference::Reference};
+use light::{Path, Traverse, View};
+
+const SIDE: u32 = 56;
+
+/// Luminance and hidden share of each pixel.
+type Frame = Vec<[f32; 2]>;
+
+fn changes(name: &str, frames: &[Frame]) {
+    let count = f64::from(SIDE * SIDE);
+    let mean = |frame: &Frame, k: usize| frame.iter().map(|p| f64::from(p[k])).sum::<f64>() / count;
+    let whole = [0, 1].map(|k| frames.iter().map(|f| mean(f, k)).sum::<f64>() / frames.len() as f64);
+    let step = |k: usize| {
+        frames.windows(2).map(|f| (mean(&f[1], k) - mean(&f[0], k)).abs() / whole[k]).fold(0.0, f64::max)
+    };
+    let rms = frames.windows(2).map(|f| {
+        let square = f[0].iter().zip(&f[1]).map(|(a, b)| f64::from(a[0] - b[0]).powi(2)).sum::<f64>();
+        (square / count).sqrt() / whole[0]
+    });
+    println!(
+        "{name:28} luminance {:.4}  hidden {:.4}  pixel {:.3}",
+        step(0),
+        step(1),
+        rms.fold(0.0, f64::max)
+    );
+}
+
+fn main() {
+    let wanted = std::env::args().nth(1).unwrap_or_else(|| "lime".to_owned());
+    let (_, growth) = growths().into_iter().find(|(name, _)| *name == wanted).expect("one of the four");
+    let mesh = mesh(&growth);
+    let reference = Reference::new(&mesh);
+    let h = f64::from(growth.height);
+    let sun = |hour: f64| {
+        let (sin, cos) = (std::f64::consts::PI * hour).sin_cos();
+        DVec3::new(-cos, 0.8 * sin + 0.02, 0.55).normalize().as_vec3()
+    };
+    let view = |turn: f64, elevation: f64| {
+        let back = DVec3::new(turn.sin() * elevation.cos(), elevation.sin(), turn.cos() * elevation.cos());
+        let target = DVec3::Y * (0.5 * h);
+        View::look_at(target + back * (2.2 * h), target, 30.0, SIDE, SIDE)
+    };
+    let orbit: Vec<(View, Vec3)> =
+        (0..360).map(|i| (view(f64::from(i).to_radians(), 0.35), sun(0.3))).collect();
+    let rise: Vec<(View, Vec3)> =
+        (0..180).map(|i| (view(0.4, f64::from(i) * 0.5f64.to_radians()), sun(0.3))).collect();
+    let day: Vec<(View, Vec3)> = (0..200).map(|i| (view(0.0, 0.2), sun(f64::from(i) / 199.0))).collect();
+    for (name, frames) in
+        [("orbit of 1° steps", &orbit), ("rise by 0.5° steps", &rise), ("day of 200 frames", &day)]
+    {
+        for turn in [Turn::WithEye, Turn::Fixed] {
+            let stand = alone(species(&mesh, 4, 256), Setting { turn, ..Setting::default() });
+            let stand = stand.with(Setting { turn, ..Setting::default() }, Shading::default());
+            changes(
+                &format!("{name}, {turn:?}"),
+                &render(frames, |view, light, at, _| {
+                    let path = Path { spread: view.pixel_width(1.0) as f32, ..Path::EYE };
+                    let way = stand.way(&view.ray(at), path, &Around(light, &stand));
+                    [way.added.luminance(), 1.0 - way.transmittance[0]]
+                }),
+            );
+        }
+        changes(
+            &format!("{name}, mesh"),
+            &render(frames, |view, light, at, i| {
+                let mut sum = [0.0; 2];
+                for k in 0..4 {
+                    let aside = DVec2::new(f64::from(k % 2) - 0.5, f64::from(k / 2) - 0.5) * 0.5;
+                    if let Some(radiance) = mesh_radiance(&reference, light, view.line(at + aside), 0.7, i) {
+                        sum = [sum[0] + radiance.luminance() * 0.25, sum[1] + 0.25];
+                    }
+                }
+                sum
+            }),
+        );
+    }
+}
+
+fn render(frames: &[(View, Vec3)], pixel: impl Fn(&View, &Daylight, DVec2, u32) -> [f32; 2]) -> Vec<Frame> {
+    let frame = |(view, sun): &(View, Vec3)| {
+        let light = Daylight::clear(*sun, 4);
+        let light = Daylight { sun: light::Spectrum::ONE, ..light };
+        (0..SIDE * SIDE)
+            .map(|i| {
+                let at = DVec2::new(f64::from(i % SIDE) + 0.5, f64::from(i / SIDE) + 0.5);
+                pixel(view, &light, at, i)
+            })
+            .collect()
+    };
+    frames.iter().map(frame).collect()
+}

@@ -1,0 +1,122 @@
+//! Shadow planes: what a stand lets through of light (thesis 5.3.3).
+
+use glam::{DVec3, Vec2, Vec3};
+use light::{Occlude, PointSource, Ray, Spectrum, Stretch};
+
+use crate::hierarchy::{self, Probe};
+use crate::planes::{Aim, Planes};
+use crate::stand::Stand;
+
+/// Less than this counts as nothing.
+const DARK: f64 = 1e-5;
+
+impl Stand {
+    /// Share of light that one tree lets through along a segment.
+    ///
+    /// Planes are set for the segment's own direction, which is the sun's; a lamp's differ over a tree as its rays do. Where
+    /// an end lies in the tree itself (a leaf, its trunk, a bench under its branches), no plane can tell what is
+    /// between: there the crown is a cloud of leaves (Lambert-Beer in the envelope).
+    pub(crate) fn through(&self, tree: u32, segment: &Ray) -> f32 {
+        let (species, placed, line, scale) = self.local(tree, segment);
+        // Boxes have corners; planes turn in a cylinder.
+        let level = Vec2::new(line.1.x, line.1.z);
+        let aside = Vec2::new(line.0.x, line.0.z).perp_dot(level);
+        let radius = species.description().half_width;
+        if aside * aside > radius * radius * level.length_squared() * 1.0001 {
+            return 1.0;
+        }
+        let reach = segment.length / scale;
+        let ends_inside = reach.is_finite() && species.holds(line.0 + line.1 * reach);
+        if ends_inside || species.holds(line.0) {
+            return species.through_crown(line.0, line.1, reach);
+        }
+        Planes::new(species, placed, Aim::Along(line.1), self.setting).transmittance(species, line, reach)
+    }
+}
+
+impl Occlude for Stand {
+    fn transmittance(&self, segment: &Ray) -> Spectrum {
+        // f64, so that the order of the product does not show in f32.
+        let mut left = 1.0f64;
+        hierarchy::walk(&self.nodes, &Probe::new(segment), |tree| {
+            left *= f64::from(self.through(tree, segment));
+            left > DARK
+        });
+        Spectrum::splat(if left > DARK { left as f32 } else { 0.0 })
+    }
+
+    /// No stretch is wholly dark behind leaves: those that a tree may shade are reported as such, around the sphere
+    /// that holds it.
+    fn shadows(&self, source: &PointSource, a: DVec3, b: DVec3, out: &mut Vec<Stretch>) -> bool {
+        let meets = |low: Vec3, high: Vec3| shade(source, a, b, low.as_dvec3(), high.as_dvec3());
+        let mut found: Vec<[f64; 2]> = Vec::new();
+        hierarchy::select(
+            &self.nodes,
+            |low, high| meets(low, high).is_some(),
+            |tree| {
+                let placed = &self.trees[tree as usize];
+                let [low, high] = hierarchy::bounds(placed, &self.species[placed.species as usize]);
+                found.extend(meets(low, high));
+                true
+            },
+        );
+        found.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        let mut joined: Option<[f64; 2]> = None;
+        let mut stretch = |[from, to]: [f64; 2]| out.push(Stretch { from, to, dark: false });
+        for next in found {
+            match &mut joined {
+                Some(so_far) if next[0] <= so_far[1] => so_far[1] = so_far[1].max(next[1]),
+                _ => joined.replace(next).into_iter().for_each(&mut stretch),
+            }
+        }
+        joined.into_iter().for_each(&mut stretch);
+        true
+    }
+}
+
+/// The part of the segment from `a` to `b` that the sphere around a box may shade, as shares of the way; none = no part.
+///
+/// A point p is in the shadow of a sphere (c, r) where the way from it to the source comes nearer to c than r:
+///
+///   sun:  |w − (w·d) d| < r and w·d > −r,   w = c − p;   lamp at l: p in the cone from l around the sphere
+fn shade(source: &PointSource, a: DVec3, b: DVec3, low: DVec3, high: DVec3) -> Option<[f64; 2]> {
+    let centre = 0.5 * (low + high);
+    // A thousandth for roundings here and of the trees' own f32.
+    let radius = 0.5 * (high - low).length() * 1.001;
+    let (from, way) = (a - centre, b - a);
+    match *source {
+        PointSource::Toward(toward) | PointSource::Below { toward, .. } => {
+            let flat = |v: DVec3| v - toward * v.dot(toward);
+            let [start, end] = disc(flat(from), flat(way), radius)?;
+            // Beyond the sphere, seen from the sun: −w·d < r along the whole part means it is lit.
+            let beyond = |t: f64| (from + way * t).dot(toward) < radius;
+            (beyond(start) || beyond(end)).then_some([start, end])
+        }
+        PointSource::At(lamp) => cone(from, way, lamp - centre, radius),
+    }
+}
+
+/// Where |start + t way| < radius, t within \[0, 1\].
+fn disc(start: DVec3, way: DVec3, radius: f64) -> Option<[f64; 2]> {
+    let (a, b, c) = (way.length_squared(), start.dot(way), start.length_squared() - radius * radius);
+    if a == 0.0 {
+        return (c < 0.0).then_some([0.0, 1.0]);
+    }
+    let discriminant = b * b - a * c;
+    if discriminant <= 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let (from, to) = (((-b - root) / a).max(0.0), ((-b + root) / a).min(1.0));
+    (from < to).then_some([from, to])
+}
+
+/// A part of the segment that holds all of it that a sphere about the origin shades from `lamp`: where the segment comes
+/// near the plane's triangle with the lamp, all of it.
+fn cone(from: DVec3, way: DVec3, lamp: DVec3, radius: f64) -> Option<[f64; 2]> {
+    let normal = (from - lamp).cross(way).try_normalize();
+    let apart = normal.is_some_and(|normal| lamp.dot(normal).abs() > radius);
+    // Beyond the sphere as seen from the lamp, or beside it: the sphere in front of the lamp's half-space towards it.
+    let reaches = [from, from + way].iter().any(|p| (*p - lamp).length() + radius > lamp.length());
+    (!apart && reaches).then_some([0.0, 1.0])
+}
