@@ -82,7 +82,8 @@ impl Standing {
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
         let flat = waters.as_ref().map(|waters| &**waters.flat());
-        let warnings = banks::warnings(scene, flat.unwrap_or_default(), traced.first());
+        let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), traced.first());
+        warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
         Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new(), warnings })
     }
 

@@ -46,6 +46,22 @@ impl Waters {
         Ok((!waters.is_empty()).then_some(Self { waters, rules, waves, beams }))
     }
 
+    /// A warning for each water whose beams are fewer than those asked for.
+    pub(super) fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let of = |((water, flat), waves): ((&scene::Water, &FlatWater), &Arc<Waves>)| {
+            let asked = self.beams?;
+            let possible = asked.cells_over(flat, waves).filter(|possible| *possible < asked.cells)?;
+            Some(format!(
+                "[[water]] {:?} is too large for water.caustics.cells = {}: its beams are cut {possible:.2} to the length of its shortest \
+                 wave ({:.3} m), no more than 4,194,304 of them; a smaller outline has finer lines of light",
+                water.name,
+                asked.cells,
+                waves.shortest()?
+            ))
+        };
+        scene.waters.iter().zip(&*self.waters).zip(&self.waves).filter_map(of).collect()
+    }
+
     /// All of them.
     pub(super) fn flat(&self) -> &Arc<[FlatWater]> {
         &self.waters

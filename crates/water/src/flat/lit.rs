@@ -30,7 +30,7 @@ pub enum Source {
 
 impl Source {
     /// Where a lamp is; none for what is far away.
-    fn lamp(&self) -> Option<DVec3> {
+    pub(crate) fn lamp(&self) -> Option<DVec3> {
         match self {
             Self::At(at) => Some(*at),
             Self::Area(lamp) => Some(lamp.centre.as_dvec3()),
@@ -133,6 +133,30 @@ impl Lit {
         depths.filter_map(|(i, water)| Some((i, water.depth(point)?))).find(|(_, depth)| *depth > ON)
     }
 
+    /// Whether a point lies in one of the waters.
+    pub(crate) fn is_under(&self, point: DVec3) -> bool {
+        self.under(point).is_some()
+    }
+
+    /// What arrives at a place in air by way of the surface of water number `i`.
+    pub(crate) fn off(&self, i: usize, place: &Place, occlude: &dyn Occlude, receive: Receive<'_>) {
+        let water = &self.waters[i];
+        let depth = water.surface.level - f64::from(place.position.y);
+        if depth >= -ON {
+            return;
+        }
+        let at = At { water, place, depth, occlude };
+        match (self.source, self.source.lamp()) {
+            (Source::Toward(toward), _) => at.sun_mirrored(receive, self, toward),
+            (_, Some(lamp))
+                if self.lamp_in == Some(i) || (self.lamp_in.is_none() && !water.surface.is_below(lamp)) =>
+            {
+                at.lamp(receive, self);
+            }
+            _ => {}
+        }
+    }
+
     /// How many points its lamp shines from.
     pub(super) fn count(&self) -> u32 {
         if let Source::Area(lamp) = self.source { lamp.samples.max(1) } else { 1 }
@@ -224,25 +248,11 @@ impl Illuminate for Lit {
         if let Some((i, depth)) = self.under(place.position.as_dvec3()) {
             return self.below(i, &At { water: &self.waters[i], place, depth, occlude }, receive);
         }
-        let (lamp, lamp_in) = (self.source.lamp(), self.lamp_in);
-        if lamp_in.is_none() && self.part.has(Part::Direct) {
+        if self.lamp_in.is_none() && self.part.has(Part::Direct) {
             self.inner.arrivals_on(face, place, occlude, receive);
         }
-        for (i, water) in self.waters.iter().enumerate() {
-            let depth = water.surface.level - f64::from(place.position.y);
-            if depth >= -ON {
-                continue;
-            }
-            let at = At { water, place, depth, occlude };
-            match (self.source, lamp) {
-                (Source::Toward(toward), _) => at.sun_mirrored(receive, self, toward),
-                (_, Some(lamp))
-                    if lamp_in == Some(i) || (lamp_in.is_none() && !water.surface.is_below(lamp)) =>
-                {
-                    at.lamp(receive, self);
-                }
-                _ => {}
-            }
+        for i in 0..self.waters.len() {
+            self.off(i, place, occlude, receive);
         }
     }
 
