@@ -26,7 +26,7 @@
 //! point, and a lamp with an extent one in its middle; shadows in the light of lamps that comes by way of the surface are found by
 //! looking at 32 places of a view ray. Level and upward view rays, and those that end at things in deep water, get too little light that was scattered
 //! more than once. With waves, light takes flat paths between the highest crest and as far below the level; shadows are asked for once for each 4 × 4 cells of the
-//! surface; and below some 12° of elevation the facet that shows of a wind's waves is near the first one met, not it.
+//! surface.
 //!
 //! ```
 //! use glam::DVec3;
