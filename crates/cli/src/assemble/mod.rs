@@ -75,6 +75,7 @@ impl Standing {
             None => Arc::clone(&scene.geometry),
         };
         let traced = Traced::of([&seen, &scene.geometry], plan, solids);
+        let waters = waters.map(|waters| waters.over_beds(traced.first()));
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
             _ => traced.occlude(),

@@ -13,7 +13,7 @@ use super::points::Point;
 use super::rules::{Rules, Scattered};
 use super::shafts::{Parallel, on_surface};
 use super::window::{Glow, Window, lit};
-use crate::{Loss, Scattering, SunBelow, ViewRay, Way};
+use crate::{Scattering, SunBelow, ViewRay, Way};
 
 /// What kind of source it is, which says how its light finds its way through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl Lit {
     /// `inner`, which is a `source`, with these waters around.
     pub fn new(inner: Box<dyn Illuminate>, source: Source, waters: Arc<[FlatWater]>, rules: Rules) -> Self {
         let held = |water: &FlatWater| {
-            let scattering = Scattering::new(water.water.clone(), water.surface.level, Loss::Diffuse);
+            let scattering = water.scattering();
             Held {
                 scattering: if rules.scattered == Scattered::Often { scattering.often() } else { scattering },
                 sun: match source {

@@ -1,11 +1,13 @@
 //! Where flat water is.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use light::Mesh;
 
-use crate::{Surface, Water};
+use crate::scatter::Bed;
+use crate::{Loss, Scattering, Surface, Water};
 
 /// Water below a level surface with an outline, down to whatever its bottom is.
 #[derive(Clone, Debug)]
@@ -20,6 +22,8 @@ pub struct FlatWater {
     outline: Vec<[DVec2; 2]>,
     low: DVec2,
     high: DVec2,
+    /// How deep it is; none = deeper than light comes.
+    bed: Option<Arc<Bed>>,
 }
 
 impl FlatWater {
@@ -37,7 +41,22 @@ impl FlatWater {
             surface: Surface::of(&water, place.translation.y),
             water,
             triangles,
+            bed: None,
             outline: outline(mesh).into_iter().map(|edge| edge.map(at)).collect(),
+        }
+    }
+
+    /// The same over a bed, which limits how often light is scattered ([`crate::Scattering::over`]).
+    pub fn over(self, bed: Bed) -> Self {
+        Self { bed: Some(Arc::new(bed)), ..self }
+    }
+
+    /// How light is scattered in it.
+    pub(super) fn scattering(&self) -> Scattering {
+        let deep = Scattering::new(self.water.clone(), self.surface.level, Loss::Diffuse);
+        match &self.bed {
+            Some(bed) => deep.over(Arc::clone(bed)),
+            None => deep,
         }
     }
 

@@ -345,3 +345,61 @@ proptest! {
         prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-2 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
     }
 }
+
+/// Everywhere this deep.
+fn bed(depth: f64) -> std::sync::Arc<Bed> {
+    std::sync::Arc::new(Bed::new([glam::DVec2::splat(-50.0), glam::DVec2::splat(50.0)], 3, |_| Some(depth)))
+}
+
+#[test]
+fn room_is_that_of_the_water_wherever_rays_look_and_end() {
+    let (once, deep) = (grey(0.9, Phase::petzold(), Loss::Diffuse), 4.0);
+    let often = once.clone().often().over(bed(deep));
+    let sun = sun_at(&once, 30.0);
+    // By how much more is scattered than once, over how much there would be in deep water.
+    let room = |ray: &ViewRay| {
+        let whole = [[0.0, f64::INFINITY]];
+        let of = |scattering: &Scattering| f64::from(scattering.sun(&sun, ray, &whole)[3]);
+        let (found, open) = (of(&often) - of(&once), of(&once.clone().often()) - of(&once));
+        // Each of the four is rounded a few times.
+        (found / open, 8.0 * f64::from(f32::EPSILON) * of(&once.clone().often()) / open)
+    };
+    let expected = multiple::room(1.0, deep);
+    for degrees in (-90..=90).step_by(3) {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        for length in [0.01, 0.5, 1.0, 3.0] {
+            let ray = ViewRay { from: DVec3::NEG_Y, direction: DVec3::new(cos, sin, 0.0), length };
+            let (got, rounded) = room(&ray);
+            assert!(
+                (got - expected).abs() < rounded && rounded < 0.1,
+                "{degrees}°, {length} m: {got} {expected}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    /// What rays bring back is continuous over their elevation, over a bed that slopes.
+    #[test]
+    fn scattered_light_is_continuous_over_elevation(degrees in -89.0..89.0f64, depth in 0.1..1.5f64, angle in 0.0..80.0f64) {
+        let once = grey(0.9, Phase::petzold(), Loss::Diffuse);
+        let slope = Bed::new([glam::DVec2::splat(-50.0), glam::DVec2::splat(50.0)], 101, |at| Some(2.0 + 0.01 * at.x));
+        let often = once.clone().often().over(std::sync::Arc::new(slope));
+        let (sun, sky) = (sun_at(&once, angle), ScatteredSky::new(often.clone(), |_| Spectrum::ONE));
+        let of = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            // Up to the surface, down to 1.6 m, no farther than 20 m.
+            let room = if sin > 0.0 { depth } else { 1.6 - depth };
+            let length = (room / sin.abs()).min(20.0);
+            let ray = ViewRay { from: DVec3::NEG_Y * depth, direction: DVec3::new(cos, sin, 0.0), length };
+            [often.sun(&sun, &ray, &[[0.0, length]])[3], sky.radiance(&ray)[3]]
+        };
+        let (here, near) = (of(degrees), of(degrees + 1e-3));
+        for (here, near) in here.into_iter().zip(near) {
+            // Petzold's peak of some 1e3 falls by its own size within a tenth of a degree, and is 0.02° wide: elsewhere much less.
+            prop_assert!(here > 0.0 && (near / here - 1.0).abs() < 0.05, "{} {}", here, near);
+        }
+    }
+}
