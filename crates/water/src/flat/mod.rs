@@ -2,6 +2,7 @@
 
 mod along;
 mod arriving;
+mod cover;
 mod fill;
 mod lit;
 mod points;
