@@ -27,7 +27,7 @@ use light::Spectrum;
 pub use bed::Bed;
 pub use lamp::{LAMP_TOLERANCE, Light};
 pub use sky::ScatteredSky;
-pub use steps::{Stepped, Steps};
+pub use steps::{MOST_STEPS, Stepped, Steps};
 
 use crate::{Loss, Surface, Water};
 
