@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
-use light::Mesh;
+use light::{Mesh, Spectrum};
 
 use super::cover::Cover;
 use crate::scatter::Bed;
@@ -68,6 +68,18 @@ impl FlatWater {
     /// How deep below the surface a point lies \[m\], negative above it; none beside the water.
     pub fn depth(&self, point: DVec3) -> Option<f64> {
         self.covers(DVec2::new(point.x, point.z)).then_some(self.surface.level - point.y)
+    }
+
+    /// What is left of light that lights things at `to`, in this water, of its way from `from` straight through the water and its sides.
+    pub(super) fn left(&self, from: DVec3, to: DVec3) -> Spectrum {
+        let [a, b] = [from, to].map(|p| DVec2::new(p.x, p.z));
+        // Above the level there is no water.
+        let under = |p: DVec3| p.y < self.surface.level;
+        let share = match (under(from), under(to)) {
+            (true, true) => self.stretches(a, b).iter().map(|[from, to]| to - from).sum(),
+            _ => 1.0,
+        };
+        self.water.loss(Loss::Diffuse).attenuate((from.distance(to) * share) as f32)
     }
 
     /// The edges of the surface, x and z in the world \[m\], in no order.
