@@ -152,9 +152,9 @@ fn sensors_in_walls_and_waters_without_banks_are_named() {
     std::fs::write(folder.join("hall.toml"), format!("{POOL}{roof}{open}")).unwrap();
     let said = text(&keikan(&folder, &["lux", "hall.toml"]).stderr);
     assert!(said.contains("[[water]] \"water-1\" is not closed"), "{said}");
-    let solid = "[[solid]]\nmaterial = 'stone'\nbox = { size = [1, 4, 8] }\nposition = [-9.6, 0, 0]\n";
+    let solid = "[[solid]]\nmaterial = 'stone'\nbox = { size = [1, 4, 8] }\nposition = [-9.6, -2, 0]\n";
     let front = |z: f32| {
-        format!("[[solid]]\nmaterial = 'stone'\nbox = {{ size = [6, 4, 1] }}\nposition = [-7, 0, {z}]\n")
+        format!("[[solid]]\nmaterial = 'stone'\nbox = {{ size = [6, 4, 1] }}\nposition = [-7, -2, {z}]\n")
     };
     let banks = [solid.to_owned(), front(-3.7), front(3.7)].concat();
     std::fs::write(folder.join("solid.toml"), format!("{POOL}{banks}{open}")).unwrap();
