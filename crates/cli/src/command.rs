@@ -67,7 +67,7 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     caution(&plan);
     let measuring = assemble::Measuring::new(&plan, &scene)?;
     let table = lux::measure(&scene, &measuring);
-    let buried = lux::buried(&scene, &*measuring.pipeline.nearest, &table);
+    let buried = lux::buried(&scene, &*measuring.dry, &table);
     for warning in measuring.warnings.iter().chain(&buried) {
         eprintln!("warning: {warning}");
     }

@@ -3,7 +3,7 @@
 //! One table, [`KNOBS`], says what exists, what it may be set to, what each preset sets it to, and what
 //! it costs. Scene files (`[settings]`), `--set name=value` and `--preset` all speak of these names.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::Error;
@@ -282,7 +282,7 @@ pub const KNOBS: &[Knob] = &[
         name: "water.sky-rays",
         domain: Domain::Integer(0, 65536),
         presets: ["32", "64", "1024"],
-        doc: "directions in which a surface under water looks through Snell's window for the sky, which stand still: 32, 64, 256 leave 3.2, 1.6, 0.5 % of the open sky's light (rms, half of it hidden), nothing where it is open; 0 = nothing hides it (thesis); time grows with it",
+        doc: "directions in which a surface under water looks through Snell's window for the sky, others for each place: 32, 64, 256 leave 2.6, 2.1, 0.7 % of the open sky's light (rms, half of it hidden), nothing where it is open; 0 = nothing hides it (thesis); at sensors 1024 (sky.sensor-rays if that is less) unless it is set; time grows with it",
     },
     Knob {
         name: "water.sky-shafts",
@@ -376,15 +376,16 @@ pub const KNOBS: &[Knob] = &[
     },
 ];
 
-/// A value for every knob, checked.
+/// A value for every knob, checked; and the knobs that were set one by one, whatever the preset says.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(transparent)]
-pub struct Settings(BTreeMap<&'static str, String>);
+pub struct Settings(BTreeMap<&'static str, String>, #[serde(skip)] BTreeSet<&'static str>);
 
 impl Settings {
     /// The values of a preset.
     pub fn preset(preset: Preset) -> Self {
-        Self(KNOBS.iter().map(|knob| (knob.name, knob.presets[preset as usize].to_owned())).collect())
+        let values = KNOBS.iter().map(|knob| (knob.name, knob.presets[preset as usize].to_owned()));
+        Self(values.collect(), BTreeSet::new())
     }
 
     /// Sets a knob by name. `whose` says who asked (`--set`, `[settings]`) in the error.
@@ -406,6 +407,7 @@ impl Settings {
             )));
         }
         self.0.insert(knob.name, value.to_owned());
+        self.1.insert(knob.name);
         Ok(())
     }
 
@@ -424,8 +426,10 @@ impl Settings {
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
             self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
-            let window = rays.min(1024).max(self.integer("water.sky-rays"));
-            self.0.insert("water.sky-rays", window.to_string());
+            if !self.1.contains("water.sky-rays") {
+                let window = rays.min(1024).max(self.integer("water.sky-rays"));
+                self.0.insert("water.sky-rays", window.to_string());
+            }
             self.0.insert("sky.visibility", "rays".to_owned());
         }
         self
@@ -497,6 +501,12 @@ mod tests {
         let mut settings = Settings::preset(Preset::Normal);
         let at_sensors = settings.clone().at_sensors();
         assert_eq!((at_sensors.choice("sky.visibility"), at_sensors.integer("sky.rays")), ("rays", 1024));
+        assert_eq!(at_sensors.integer("water.sky-rays"), 1024);
+        for few in ["0", "64"] {
+            let mut told = settings.clone();
+            told.set("water.sky-rays", few, "--set").unwrap();
+            assert_eq!(told.at_sensors().choice("water.sky-rays"), few);
+        }
         settings.set("sky.rays", "9999", "--set").unwrap();
         assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 2500);
         settings.set("sky.visibility", "cuboid", "--set").unwrap();

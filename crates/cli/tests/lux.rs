@@ -147,6 +147,25 @@ fn sensors_in_walls_and_waters_without_banks_are_named() {
     std::fs::write(folder.join("open.toml"), format!("{POOL}{open}")).unwrap();
     let said = text(&keikan(&folder, &["lux", "open.toml"]).stderr);
     assert!(said.contains("[[water]] \"water-1\" is not closed") && !said.contains("lost"), "{said}");
+    // A roof is no bank; a solid is.
+    let roof = "[[model]]\nmaterial = 'stone'\nbox = { size = [40, 0.3, 40] }\nposition = [0, 4, 0]\n";
+    std::fs::write(folder.join("hall.toml"), format!("{POOL}{roof}{open}")).unwrap();
+    let said = text(&keikan(&folder, &["lux", "hall.toml"]).stderr);
+    assert!(said.contains("[[water]] \"water-1\" is not closed"), "{said}");
+    let solid = "[[solid]]\nmaterial = 'stone'\nbox = { size = [1, 4, 8] }\nposition = [-9.6, -2, 0]\n";
+    let front = |z: f32| {
+        format!("[[solid]]\nmaterial = 'stone'\nbox = {{ size = [6, 4, 1] }}\nposition = [-7, -2, {z}]\n")
+    };
+    let banks = [solid.to_owned(), front(-3.7), front(3.7)].concat();
+    std::fs::write(folder.join("solid.toml"), format!("{POOL}{banks}{open}")).unwrap();
+    let said = text(&keikan(&folder, &["lux", "solid.toml"]).stderr);
+    assert!(!said.contains("is not closed"), "{said}");
+    // Deep under ink: dark, but in no wall.
+    let ink = "absorption = [[400, 200], [700, 200]]\nscattering = [[400, 0], [700, 0]]\n";
+    let deep = "[[sensor]]\nname = 'deep'\npoints = [[0, -1.9, 0]]\n";
+    std::fs::write(folder.join("ink.toml"), format!("{POOL}{WATER}{ink}{deep}")).unwrap();
+    let said = text(&keikan(&folder, &["lux", "ink.toml"]).stderr);
+    assert!(!said.contains("\"deep\""), "{said}");
     let impossible = format!("{POOL}{WATER}scattering = [[550, 2]]\nextinction = [[550, 1]]\n");
     std::fs::write(folder.join("b.toml"), impossible).unwrap();
     let output = keikan(&folder, &["lux", "b.toml"]);

@@ -223,7 +223,8 @@ fn a_crowd_of_faces_is_left_to_rays() {
 fn blocked(faces: &[[DVec3; 3]], at: DVec3, source: PointSource) -> bool {
     let (toward, length) = match source {
         PointSource::At(lamp) => (lamp - at, 1.0),
-        PointSource::Toward(toward) | PointSource::Below { toward, .. } => (toward, f64::INFINITY),
+        PointSource::Toward(toward) => (toward, f64::INFINITY),
+        PointSource::Below { toward, level } => (toward * ((level - at.y) / toward.y), 1.0),
     };
     faces.iter().any(|&[a, b, c]| {
         let (a, b, c) = (a - at, b - at, c - at);
@@ -302,6 +303,31 @@ proptest! {
             let reach = far + 20.0 * size;
             prop_assert!(
                 right(&faces, a.lerp(b, s), source, answer, apart(reach)),
+                "{s} of {a} to {b} from {source:?}: {answer}, {found:?}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    /// From a plane above the segment, which faces may stand through.
+    #[test]
+    fn light_from_a_plane_is_cut_where_samples_say(
+        faces in corners(), a in point(3.0), b in point(3.0), way in point(1.0), over in 1e-3..4.0f64,
+    ) {
+        let world = World::build(geometry(vec![mesh(&faces)]), Quality::Fast);
+        let toward = DVec3::new(way.x, way.y.abs() + 0.3, way.z).normalize();
+        let source = PointSource::Below { toward, level: a.y.max(b.y) + over };
+        let found = dark(&world, source, a, b);
+        prop_assert!(found.windows(2).all(|w| w[0].1 < w[1].0) && found.iter().all(|s| s.0 < s.1));
+        prop_assert!(found.iter().all(|s| 0.0 <= s.0 && s.1 <= 1.0));
+        for i in 0..200 {
+            let s = (f64::from(i) + 0.5) / 200.0;
+            let answer = covered(&found, s);
+            prop_assert!(
+                right(&faces, a.lerp(b, s), source, answer, apart(20.0)),
                 "{s} of {a} to {b} from {source:?}: {answer}, {found:?}"
             );
         }

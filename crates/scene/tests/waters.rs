@@ -115,9 +115,14 @@ const MODEL: &str = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{
 
 /// What `text` is beside `garden.gltf`.
 fn garden(test: &str, text: &str) -> Result<Scene, Error> {
+    beside(MODEL, test, text)
+}
+
+/// What `text` is beside a `model` in `garden.gltf`.
+fn beside(model: &str, test: &str, text: &str) -> Result<Scene, Error> {
     let folder = std::env::temp_dir().join(format!("keikan-waters-{}-{test}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("garden.gltf"), MODEL).unwrap();
+    std::fs::write(folder.join("garden.gltf"), model).unwrap();
     let scene = parse(text, &folder, Path::new("a.toml"));
     std::fs::remove_dir_all(&folder).unwrap();
     scene
@@ -149,11 +154,34 @@ fn a_node_of_a_model_becomes_a_surface_and_is_not_drawn() {
         ("node = 'pond'\nmodel = 'park'", "no model shows a node"),
         ("material = 'slime'", "no model shows a material of that name; there are"),
         ("node = 'pond'\npolygon = { points = [] }", "polygon and node at once"),
+        (
+            "node = 'pond'\n[[water]]\nname = 'basin'\nnode = 'pond'\nmodel = 'garden'",
+            "the waters \"water-1\" and \"basin\" claim the same faces",
+        ),
+        (
+            "material = 'Slime'\n[[water]]\nmaterial = 'Slime'",
+            "\"water-1\" and \"water-2\" claim the same faces",
+        ),
     ] {
         let message = garden("fault", &format!("{model}[[water]]\n{text}\n")).err().map(|e| e.to_string());
         let message = message.unwrap_or_default();
         assert!(message.starts_with("a.toml: line ") && message.contains(expected), "{text}: {message}");
     }
+}
+
+#[test]
+fn triangles_of_a_model_share_their_corners() {
+    // A square of two triangles, each with three corners of its own.
+    let square = MODEL.replace("\"count\": 3", "\"count\": 6").replace("36", "72").replace(
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAA",
+    );
+    let scene =
+        beside(&square, "weld", "[[model]]\nfile = 'garden.gltf'\n[[water]]\nnode = 'pond'\n").unwrap();
+    let surface = &scene.waters[0].surface;
+    assert_eq!((surface.positions.len(), surface.triangles.len()), (4, 2));
+    let [a, b] = [surface.triangles[0], surface.triangles[1]];
+    assert_eq!(a.iter().filter(|corner| b.contains(corner)).count(), 2, "they share an edge: {a:?} {b:?}");
 }
 
 const SQUARE: &str =

@@ -24,9 +24,8 @@
 //! the factor of [`multiple`] makes that good within 6 % in deep water, within 11 % over a black bottom, and not for luminaires. The sky's
 //! rays are 10° apart. In [`flat`] the sky's shadows are those of a few dozen directions; the sun that the water scatters is a
 //! point, and a lamp with an extent one in its middle; shadows in the light of lamps that comes by way of the surface are found by
-//! looking at 32 places of a view ray. Level and upward view rays, and those that end at things in deep water, get too little light that was scattered
-//! more than once. With waves, light takes flat paths within twice the sum of their heights of the level; shadows are asked for once for each 4 × 4 cells of the
-//! surface; and below some 12° of elevation the facet that shows of a wind's waves is near the first one met, not it.
+//! looking at 32 places of a view ray; what is scattered more than once knows of the bed below the middle of a view ray alone. With waves, light takes flat paths between the highest crest and as far below the level; shadows are asked for once for each 4 × 4 cells of the
+//! surface.
 //!
 //! ```
 //! use glam::DVec3;

@@ -15,23 +15,22 @@ const INSIDE: f64 = 0.01;
 const FARTHEST: f32 = 100.0;
 
 /// A warning for each water that is open at places along its edge: neither does the outline lie in the ground there, nor is there
-/// a face beside it. Water without any bed at all is a sea, and none is missed there.
+/// a face or a solid beside it. `nearest` knows no water surfaces. Water without any bed at all is a sea, and none is missed there.
 pub(super) fn warnings(scene: &Scene, waters: &[FlatWater], nearest: &dyn Nearest) -> Vec<String> {
     let of = |(water, flat): (&scene::Water, &FlatWater)| {
         let places = places(flat);
-        let meets = |from: DVec3, way: DVec3, length: f32| {
-            let ray = Ray { length, ..Ray::new(from.as_vec3(), way.as_vec3()) };
-            nearest.nearest(&ray).is_some()
+        let met = |from: DVec3, way: DVec3, length: f32| {
+            nearest.nearest(&Ray { length, ..Ray::new(from.as_vec3(), way.as_vec3()) })
         };
-        let bed = |&(at, _): &(DVec3, DVec3)| meets(at, DVec3::NEG_Y, f32::INFINITY);
+        let bed = |&(at, _): &(DVec3, DVec3)| met(at, DVec3::NEG_Y, f32::INFINITY).is_some();
         if !places.iter().any(bed) {
             return None;
         }
-        // Below a bank that the outline is drawn into, a face is near above; the surface itself lies INSIDE above.
-        let under = |at: DVec3| meets(at + DVec3::Y * (2.0 * INSIDE), DVec3::Y, FARTHEST);
+        // Below a bank that the outline is drawn into, the back of its top is above; a roof shows its underside.
+        let under = |at: DVec3| met(at, DVec3::Y, FARTHEST).is_some_and(|hit| !hit.front);
         let open: Vec<DVec3> = places
             .iter()
-            .filter(|(at, out)| !meets(*at, *out, FARTHEST) && !under(*at))
+            .filter(|(at, out)| met(*at, *out, FARTHEST).is_none() && !under(*at))
             .map(|(at, _)| *at + scene.origin)
             .collect();
         let first = open.first()?;

@@ -1,7 +1,9 @@
 //! The pipeline of `keikan lux`: a source for every way that light takes.
 
 use std::fmt;
+use std::sync::Arc;
 
+use light::Nearest;
 use scene::Scene;
 
 use super::{Maps, Standing, interreflection};
@@ -53,7 +55,9 @@ pub struct Column {
 pub struct Measuring {
     /// Its sources are the columns.
     pub pipeline: Pipeline,
-    /// What they are.
+    /// What stands there, without water surfaces.
+    pub dry: Arc<dyn Nearest>,
+    /// What its columns are.
     pub columns: Vec<Column>,
     /// Interreflected light by coarser patches, to see how far they leave it off.
     pub coarser: Option<Source>,
@@ -90,7 +94,7 @@ impl Measuring {
             })
             .unzip();
         let pipeline = standing.pipeline(plan, scene, sources.into())?;
-        Ok(Self { pipeline, columns, coarser, warnings: standing.warnings })
+        Ok(Self { pipeline, dry: standing.traced.dry(), columns, coarser, warnings: standing.warnings })
     }
 }
 

@@ -75,6 +75,7 @@ impl Standing {
             None => Arc::clone(&scene.geometry),
         };
         let traced = Traced::of([&seen, &scene.geometry], plan, solids);
+        let waters = waters.map(|waters| waters.over_beds(&*traced.dry()));
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
             _ => traced.occlude(),
@@ -82,7 +83,8 @@ impl Standing {
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
         let flat = waters.as_ref().map(|waters| &**waters.flat());
-        let warnings = banks::warnings(scene, flat.unwrap_or_default(), traced.first());
+        let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), &*traced.dry());
+        warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
         Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new(), warnings })
     }
 
@@ -243,6 +245,18 @@ impl Traced {
         };
         match &self.solids {
             Some([solids, _]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
+            None => triangles,
+        }
+    }
+
+    /// What there is without water surfaces.
+    fn dry(&self) -> Arc<dyn Nearest> {
+        let triangles: Arc<dyn Nearest> = match &self.shadow {
+            Triangles::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
+            Triangles::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
+        };
+        match &self.solids {
+            Some([_, solids]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
             None => triangles,
         }
     }

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-use light::{Geometry, Illuminate, Instance, PointSource, Shade, Traverse};
+use glam::{DVec2, Vec3};
+use light::{Geometry, Illuminate, Instance, Nearest, PointSource, Ray, Shade, Traverse};
 use scene::Scene;
 use water::caustics::{Beams, Setting};
 use water::flat::{Along, Fill, FlatWater, Lit, Part, Rules, Scattered, Source as Kind, SurfaceShade};
-use water::scatter::LAMP_TOLERANCE;
+use water::scatter::{Bed, LAMP_TOLERANCE};
 use water::waves::{Stokes, WaveError, Waves, WavyShade, Wind};
 use water::{Paths, Tolerance};
 
@@ -18,6 +18,11 @@ use super::qualities::of_scene as quality;
 use crate::Error;
 use crate::knobs::Settings;
 use crate::pipeline::Source;
+
+/// Places along and across a water at which one looks how deep it is.
+const PLACES: usize = 33;
+/// From how far below its level \[m\]: the surface itself is no bed.
+const BELOW: f64 = 1e-3;
 
 /// All waters of a scene; none without any.
 pub(super) struct Waters {
@@ -44,6 +49,35 @@ impl Waters {
         });
         let rules = rules(settings);
         Ok((!waters.is_empty()).then_some(Self { waters, rules, waves, beams }))
+    }
+
+    /// The same over the beds that are met below their surfaces.
+    pub(super) fn over_beds(self, nearest: &dyn Nearest) -> Self {
+        let over = |water: &FlatWater| {
+            let depth = |at: DVec2| {
+                let from = Vec3::new(at.x as f32, (water.surface.level - BELOW) as f32, at.y as f32);
+                let hit = nearest.nearest(&Ray::new(from, Vec3::NEG_Y))?;
+                Some(f64::from(hit.distance) + BELOW)
+            };
+            water.clone().over(Bed::new(water.extent(), PLACES, depth))
+        };
+        Self { waters: self.waters.iter().map(over).collect(), ..self }
+    }
+
+    /// A warning for each water whose beams are fewer than those asked for.
+    pub(super) fn warnings(&self, scene: &Scene) -> Vec<String> {
+        let of = |((water, flat), waves): ((&scene::Water, &FlatWater), &Arc<Waves>)| {
+            let asked = self.beams?;
+            let possible = asked.cells_over(flat, waves).filter(|possible| *possible < asked.cells)?;
+            Some(format!(
+                "[[water]] {:?} is too large for water.caustics.cells = {}: its beams are cut {possible:.2} to the length of its shortest \
+                 wave ({:.3} m), no more than 4,194,304 of them; a smaller outline has finer lines of light",
+                water.name,
+                asked.cells,
+                waves.shortest()?
+            ))
+        };
+        scene.waters.iter().zip(&*self.waters).zip(&self.waves).filter_map(of).collect()
     }
 
     /// All of them.

@@ -11,7 +11,7 @@ use super::{Row, Table, place};
 const DIRECTIONS: u32 = 32;
 
 /// A warning for each sensor with dark points around which there is nothing but the backs of faces: they seem to lie inside
-/// of a wall.
+/// of a wall. `nearest` knows no water surfaces, whose backs bury nobody.
 pub fn buried(scene: &Scene, nearest: &dyn Nearest, table: &Table) -> Vec<String> {
     let of = |(sensor, rows): (&scene::Sensor, &[Row])| {
         let dark = rows.iter().filter(|row| row.total == 0.0).map(|row| row.point);

@@ -48,6 +48,8 @@ pub(crate) struct Claims {
 /// A water (its number from 0) and what is its surface, in a certain model or in any.
 pub(crate) struct Claim {
     pub(crate) water: usize,
+    /// What the water is called.
+    pub(crate) name: String,
     pub(crate) model: Option<String>,
     pub(crate) wanted: Wanted,
 }

@@ -27,7 +27,7 @@ pub(crate) fn water(
     };
     let times =
         spot.key("scattering_times").within(table.scattering_times.unwrap_or(1.0), 0.0, MOST_TIMES, "")?;
-    let name = table.name.clone().unwrap_or_else(|| format!("water-{number}"));
+    let name = surface::name(table, number);
     Ok(Water {
         waves: waves::waves(spot, table, site, &name)?,
         name,

@@ -20,9 +20,7 @@ impl Grid {
     /// Of the rectangle from `low` to `high`, in cells no wider than `step` \[m\] unless there were too many.
     pub(super) fn new(low: DVec2, high: DVec2, step: f64) -> Self {
         let size = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-        // (x/s + 1)(z/s + 1) ≤ MOST.
-        let (sum, area) = (size.x + size.y, size.x * size.y);
-        let least = (sum + (sum * sum + 4.0 * (MOST - 1.0) * area).sqrt()) / (2.0 * (MOST - 1.0));
+        let least = least_step(low, high);
         let step = if step > least { step } else { least };
         let cells = (size / step).to_array().map(|n| (n.ceil() as usize).max(1));
         let step = DVec2::new(size.x / cells[0] as f64, size.y / cells[1] as f64);
@@ -50,4 +48,11 @@ impl Grid {
         let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
         if (i + j).is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     }
+}
+
+/// The finest step \[m\] for which the rectangle from `low` to `high` has no more than [`MOST`] corners: (x/s + 1)(z/s + 1) ≤ MOST.
+pub(super) fn least_step(low: DVec2, high: DVec2) -> f64 {
+    let size = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+    let (sum, area) = (size.x + size.y, size.x * size.y);
+    (sum + (sum * sum + 4.0 * (MOST - 1.0) * area).sqrt()) / (2.0 * (MOST - 1.0))
 }

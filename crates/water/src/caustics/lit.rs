@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use light::{Arrival, Illuminate, Occlude, Place, Ray, Spectrum};
 
+use super::grid::least_step;
 use super::{Beam, BeamMap};
 use crate::flat::{FlatWater, Lit, Part, Rules, Source, beams_on, on_surface};
 use crate::waves::Waves;
@@ -20,11 +22,21 @@ pub struct Setting {
     pub disc: f64,
 }
 
+impl Setting {
+    /// Cells to the shortest wave's length that the surface of `water` is cut into: those asked for, or fewer where its beams would have
+    /// more than 4 Mi corners. None in calm water.
+    pub fn cells_over(&self, water: &FlatWater, waves: &Waves) -> Option<f64> {
+        let [low, high] = water.extent();
+        Some(self.cells.min(waves.shortest()? / least_step(low, high)))
+    }
+}
+
 /// The sun, or a lamp in air, with wavy water around: through and off the waves by beams; elsewhere as by flat water ([`Lit`]).
 ///
-/// Within twice the sum of all waves' heights of the level of rest light takes the flat paths (in the seas of a strong wind that is some
-/// metres), and so does that of lamps that hang lower than that sum. Shadows are asked for on both legs once for each
-/// leaf of beams, at the surface point that its light comes from on average.
+/// Over and under a water, between its highest crest and as far below its level, light takes its flat paths, and so does that of
+/// lamps that hang lower than that. Each water is asked for itself: what others there are, and how high they lie, does not matter to it.
+/// Nothing comes off a surface to places in another water. Shadows are asked for on both legs once for each leaf of
+/// beams, at the surface point that its light comes from on average.
 pub struct Beams {
     inner: Arc<dyn Illuminate>,
     /// With all waters as if at rest.
@@ -38,12 +50,31 @@ pub struct Beams {
 
 /// A water with waves, and its beams.
 struct Wavy {
+    /// Its number among all waters.
+    index: usize,
     water: FlatWater,
     /// None where this part of the light is not asked for.
     through: Option<BeamMap>,
     mirrored: Option<BeamMap>,
-    /// How far from the level beams begin \[m\].
+    /// How far from the level beams begin \[m\]: no wave rises or falls farther.
     near: f64,
+}
+
+impl Wavy {
+    /// Of a `part` of a source's light, in cells of `step` \[m\]; none where waves hide the source.
+    fn new(
+        (index, water, waves): (usize, &FlatWater, &Waves),
+        source: Source,
+        part: Part,
+        fine: (f64, f64),
+    ) -> Option<Self> {
+        let map = |of, way| part.has(of).then(|| BeamMap::new(water, waves, source, way, fine));
+        let (through, mirrored) = (map(Part::Through, Way::Refracted), map(Part::Reflected, Way::Mirrored));
+        let near = through.as_ref().or(mirrored.as_ref()).map_or(0.0, BeamMap::reach);
+        let over = |lamp: DVec3| lamp.y > water.surface.level + near;
+        let shines = source.lamp().is_none_or(over);
+        shines.then(|| Self { index, water: water.clone(), through, mirrored, near })
+    }
 }
 
 impl Beams {
@@ -56,22 +87,20 @@ impl Beams {
         waves: &[Arc<Waves>],
         (rules, setting, part): (Rules, Setting, Part),
     ) -> Self {
-        let shines = |water: &FlatWater, waves: &Waves| match source {
+        let outside =
+            |lamp: DVec3| waters.iter().all(|water| water.depth(lamp).is_none_or(|depth| depth <= 0.0));
+        let shines = |water: &FlatWater| match source {
             Source::Toward(toward) => toward.y > 0.0,
-            Source::At(lamp) => lamp.y > water.surface.level + waves.highest(),
+            Source::At(lamp) => lamp.y > water.surface.level && outside(lamp),
             Source::Around | Source::Area(_) => false,
         };
         let (mut wavy, mut calm) = (Vec::new(), Vec::new());
-        for (water, waves) in waters.iter().zip(waves) {
-            let Some(shortest) = waves.shortest().filter(|_| shines(water, waves)) else {
-                calm.push(water.clone());
-                continue;
-            };
-            let fine = (shortest / setting.cells, setting.disc);
-            let map = |of, way| part.has(of).then(|| BeamMap::new(water, waves, source, way, fine));
-            let (through, mirrored) =
-                (map(Part::Through, Way::Refracted), map(Part::Reflected, Way::Mirrored));
-            wavy.push(Wavy { water: water.clone(), through, mirrored, near: 2.0 * waves.highest() });
+        for (i, (water, waves)) in waters.iter().zip(waves).enumerate() {
+            let step = waves.shortest().filter(|_| shines(water)).map(|shortest| shortest / setting.cells);
+            match step.and_then(|step| Wavy::new((i, water, waves), source, part, (step, setting.disc))) {
+                Some(beams) => wavy.push(beams),
+                None => calm.push(water.clone()),
+            }
         }
         let by = |waters| Lit::new(Box::new(Arc::clone(&inner)), source, waters, rules).only(part);
         Self { flat: by(waters), calm: by(calm.into()), inner, wavy, width: setting.width }
@@ -127,12 +156,11 @@ impl Illuminate for Beams {
         receive: &mut dyn FnMut(Arrival),
     ) {
         let point = place.position.as_dvec3();
-        let above = |wavy: &Wavy| point.y - wavy.water.surface.level;
-        if self.wavy.iter().any(|wavy| above(wavy).abs() <= wavy.near) {
-            return self.flat.arrivals_on(face, place, occlude, receive);
-        }
-        let under = |wavy: &&Wavy| wavy.water.depth(point).is_some_and(|depth| depth > 0.0);
-        if let Some(wavy) = self.wavy.iter().find(under) {
+        if self.flat.is_under(point) {
+            let here = |wavy: &&Wavy| wavy.water.depth(point).is_some_and(|depth| depth > wavy.near);
+            let Some(wavy) = self.wavy.iter().find(here) else {
+                return self.flat.arrivals_on(face, place, occlude, receive);
+            };
             let loss = wavy.water.water.loss(Loss::Diffuse);
             if let Some(through) = &wavy.through {
                 self.give(through, &At { place, occlude, loss }, receive);
@@ -140,10 +168,15 @@ impl Illuminate for Beams {
             return;
         }
         self.calm.arrivals_on(face, place, occlude, receive);
-        for mirrored in
-            self.wavy.iter().filter(|wavy| above(wavy) > 0.0).filter_map(|wavy| wavy.mirrored.as_ref())
-        {
-            self.give(mirrored, &At { place, occlude, loss: Spectrum::ZERO }, receive);
+        for wavy in &self.wavy {
+            let low = wavy.water.depth(point).is_some_and(|depth| -depth <= wavy.near);
+            match &wavy.mirrored {
+                Some(_) if low => self.flat.off(wavy.index, place, occlude, receive),
+                Some(mirrored) if point.y > wavy.water.surface.level => {
+                    self.give(mirrored, &At { place, occlude, loss: Spectrum::ZERO }, receive);
+                }
+                _ => {}
+            }
         }
     }
 

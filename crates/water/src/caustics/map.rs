@@ -94,6 +94,11 @@ impl BeamMap {
         }
     }
 
+    /// The greatest |height| of its corners \[m\]: no beam begins farther from the level.
+    pub fn reach(&self) -> f64 {
+        f64::from(self.rays.iter().fold(0.0f32, |most, ray| most.max(ray.height.abs())))
+    }
+
     /// Half of the side of the square that stands for a receiver \[m\], `least` at least: as the source's disc is blurred, but a quarter of a step at least.
     pub fn half_width(&self, at: DVec3, least: f64) -> f64 {
         let blurred = self.blur * (self.surface.level - at.y).abs();

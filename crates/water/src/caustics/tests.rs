@@ -1,3 +1,5 @@
+mod sources;
+
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec2, DVec3, Vec3};

@@ -53,13 +53,18 @@ impl At<'_> {
         Some((way.direction, point.facing(&surface, self.occlude) * seen))
     }
 
-    /// From a lamp, off the surface if it is on the place's own side of it, through it if not.
-    pub(super) fn lamp(&self, receive: Receive<'_>, lit: &Lit) {
+    /// From a lamp by way of the surface of this water, number `i`: off it from points on the place's own side of it, through it from those
+    /// on the other. Points in another water, and those beside this one and below its level, send nothing by it.
+    pub(super) fn lamp(&self, receive: Receive<'_>, lit: &Lit, i: usize) {
         let (surface, place) = (&self.water.surface, self.place.position.as_dvec3());
         let count = lit.count();
-        for i in 0..count {
-            let Some(point) = lit.point((i, count), place) else { return };
-            let below = surface.is_below(point.at);
+        for n in 0..count {
+            let Some(point) = lit.point((n, count), self.place) else { return };
+            let below = match lit.holder(point.at) {
+                Some(holder) if holder == i => true,
+                None if !surface.is_below(point.at) => false,
+                _ => continue,
+            };
             let (part, leg) = match below == (self.depth > 0.0) {
                 true => (Part::Reflected, surface.mirrored(point.at, place)),
                 false => (Part::Through, surface.refracted(point.at, place, lit.rules.paths)),

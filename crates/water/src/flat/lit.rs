@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
-use light::{AreaLight, Arrival, Illuminate, Occlude, Place, Ray, Spectrum, Vacuum};
+use light::{AreaLight, AreaShape, Arrival, Illuminate, Occlude, Place, Ray, Spectrum, Vacuum};
 
 use super::FlatWater;
 use super::along::Beside;
@@ -11,54 +11,10 @@ use super::arriving::{At, Receive};
 use super::fill::filling;
 use super::points::Point;
 use super::rules::{Rules, Scattered};
-use super::shafts::{Parallel, on_surface};
+use super::shafts::{Parallel, on_surface, within};
+use super::source::{Part, Source};
 use super::window::{Glow, Window, lit};
-use crate::{Loss, Scattering, SunBelow, ViewRay, Way};
-
-/// What kind of source it is, which says how its light finds its way through a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
-    /// Far away in the direction of this unit vector: the sun.
-    Toward(DVec3),
-    /// A luminaire at this point \[m\].
-    At(DVec3),
-    /// A lamp with an extent: as it says itself where its light meets no surface; elsewhere as many points as it has samples.
-    Area(AreaLight),
-    /// All around: sky and ground.
-    Around,
-}
-
-impl Source {
-    /// Where a lamp is; none for what is far away.
-    fn lamp(&self) -> Option<DVec3> {
-        match self {
-            Self::At(at) => Some(*at),
-            Self::Area(lamp) => Some(lamp.centre.as_dvec3()),
-            Self::Toward(_) | Self::Around => None,
-        }
-    }
-}
-
-/// Which part of a source's light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Part {
-    /// All of it.
-    #[default]
-    All,
-    /// What meets no water surface.
-    Direct,
-    /// What a water surface reflects, from above or from below.
-    Reflected,
-    /// What passes a water surface.
-    Through,
-}
-
-impl Part {
-    /// Whether this part belongs to what is asked for.
-    pub(crate) fn has(self, part: Self) -> bool {
-        self == Self::All || self == part
-    }
-}
+use crate::{Scattering, SunBelow, ViewRay, Way};
 
 /// Places nearer to a surface than this \[m\] lie on it, and see neither its mirror images nor through it.
 const ON: f64 = 1e-4;
@@ -79,14 +35,25 @@ const FARTHEST: f64 = 1e5;
 /// sky's from a table, with the shadows of a few directions; a lamp's by quadrature to a stated error or by the thesis' steps, a lamp's
 /// with an extent as if from its middle.
 ///
-/// *Left out.* Water seen through water (two surfaces on one path); beside the outline light passes straight; the sky mirrored by the
-/// surface.
+/// Where a lamp is decides what becomes of its light; a lamp with an extent that lies partly under water is asked point by point:
+///
+/// | the lamp lies | to places in the water | to places in air over its surface |
+/// | --- | --- | --- |
+/// | in that water | straight, and mirrored from below | through the surface |
+/// | in air, above the level | through the surface | straight, and mirrored |
+/// | in air, below the level: beside the water, deeper than its rim | straight through its side, dimmed as far as it runs in the water | straight |
+/// | in another water | none | none of it by this surface |
+///
+/// *Left out.* Water seen through water (two surfaces on one path); what the water scatters of lamps beside it that lie below its level; beside
+/// the outline light passes straight, unrefracted; the sky mirrored by the surface.
 pub struct Lit {
     pub(super) inner: Box<dyn Illuminate>,
     pub(super) source: Source,
     waters: Arc<[FlatWater]>,
-    /// Which of them its lamp is in.
+    /// Which of them its lamp is in, or its middle.
     lamp_in: Option<usize>,
+    /// Whether its lamp has an extent that a surface cuts.
+    cut: bool,
     pub(super) rules: Rules,
     pub(super) part: Part,
     held: Vec<Held>,
@@ -104,7 +71,7 @@ impl Lit {
     /// `inner`, which is a `source`, with these waters around.
     pub fn new(inner: Box<dyn Illuminate>, source: Source, waters: Arc<[FlatWater]>, rules: Rules) -> Self {
         let held = |water: &FlatWater| {
-            let scattering = Scattering::new(water.water.clone(), water.surface.level, Loss::Diffuse);
+            let scattering = water.scattering();
             Held {
                 scattering: if rules.scattered == Scattered::Often { scattering.often() } else { scattering },
                 sun: match source {
@@ -116,10 +83,9 @@ impl Lit {
             }
         };
         let held = waters.iter().map(held).collect();
-        let holds =
-            |lamp: DVec3| waters.iter().position(|water| water.depth(lamp).is_some_and(|depth| depth > 0.0));
-        let lamp_in = source.lamp().and_then(holds);
-        Self { inner, source, waters, lamp_in, rules, part: Part::All, held }
+        let lamp_in = source.lamp().and_then(|lamp| holder(&waters, lamp));
+        let cut = matches!(source, Source::Area(lamp) if waters.iter().any(|water| cuts(water, &lamp)));
+        Self { inner, source, waters, lamp_in, cut, rules, part: Part::All, held }
     }
 
     /// Only one part of its light: the parts add up to [`Part::All`].
@@ -133,13 +99,55 @@ impl Lit {
         depths.filter_map(|(i, water)| Some((i, water.depth(point)?))).find(|(_, depth)| *depth > ON)
     }
 
+    /// Whether a point lies in one of the waters.
+    pub(crate) fn is_under(&self, point: DVec3) -> bool {
+        self.under(point).is_some()
+    }
+
+    /// What arrives at a place in air by way of the surface of water number `i`.
+    pub(crate) fn off(&self, i: usize, place: &Place, occlude: &dyn Occlude, receive: Receive<'_>) {
+        let water = &self.waters[i];
+        let depth = water.surface.level - f64::from(place.position.y);
+        if depth >= -ON {
+            return;
+        }
+        let at = At { water, place, depth, occlude };
+        match self.source {
+            Source::Toward(toward) => at.sun_mirrored(receive, self, toward),
+            Source::At(_) | Source::Area(_) => at.lamp(receive, self, i),
+            Source::Around => {}
+        }
+    }
+
+    /// Which water a point of its lamp is in.
+    pub(super) fn holder(&self, point: DVec3) -> Option<usize> {
+        if self.cut { holder(&self.waters, point) } else { self.lamp_in }
+    }
+
+    /// What comes straight from those points of a cut lamp that are in the same water as the place, number `i`, or both in air.
+    fn straight(&self, i: Option<usize>, place: &Place, occlude: &dyn Occlude, receive: Receive<'_>) {
+        let (to, count) = (place.position.as_dvec3(), self.count());
+        for n in 0..count {
+            let Some(point) = self.point((n, count), place) else { return };
+            if self.holder(point.at) != i {
+                continue;
+            }
+            let left = i.map_or(Spectrum::ONE, |i| self.waters[i].left(point.at, to));
+            let irradiance = point.facing(place, occlude) * left;
+            if let Some(toward) = (point.at - to).as_vec3().try_normalize().filter(|_| !irradiance.is_zero())
+            {
+                receive(Arrival::Beam { toward, irradiance, radius: None });
+            }
+        }
+    }
+
     /// How many points its lamp shines from.
     pub(super) fn count(&self) -> u32 {
         if let Source::Area(lamp) = self.source { lamp.samples.max(1) } else { 1 }
     }
 
-    /// Point `i` of `count` of its lamp, for light towards `to`.
-    pub(super) fn point(&self, (i, count): (u32, u32), to: DVec3) -> Option<Point<'_>> {
+    /// Point `i` of `count` of its lamp, for light towards a place.
+    pub(super) fn point(&self, (i, count): (u32, u32), to: &Place) -> Option<Point<'_>> {
         match &self.source {
             Source::At(at) => Some(Point::luminaire(*at, &*self.inner)),
             Source::Area(lamp) => Some(Point::part(lamp, (i, count), to)),
@@ -162,21 +170,33 @@ impl Lit {
             Source::Around => {}
             Source::Toward(toward) => at.sun_below(receive, self, toward),
             Source::At(_) | Source::Area(_) => {
-                let lamp = self.source.lamp().unwrap_or_default();
-                if at.water.surface.is_below(lamp) && self.part.has(Part::Direct) {
-                    let left = at.left(lamp.distance(at.place.position.as_dvec3()));
-                    self.inner.arrivals(at.place, at.occlude, &mut |arrival| {
-                        receive(match arrival {
-                            Arrival::Beam { toward, irradiance, radius } => {
-                                Arrival::Beam { toward, irradiance: irradiance * left, radius }
-                            }
-                            Arrival::Field { irradiance } => Arrival::Field { irradiance: irradiance * left },
-                        });
-                    });
+                if self.part.has(Part::Direct) {
+                    self.direct_below(i, at, receive);
                 }
-                at.lamp(receive, self);
+                at.lamp(receive, self, i);
             }
         }
+    }
+
+    /// What comes straight from its lamp to a place under water number `i`.
+    fn direct_below(&self, i: usize, at: &At, receive: Receive<'_>) {
+        if self.cut {
+            return self.straight(Some(i), at.place, at.occlude, receive);
+        }
+        let Some(lamp) = self.source.lamp() else { return };
+        let beside = self.lamp_in.is_none() && at.water.surface.is_below(lamp);
+        if self.lamp_in != Some(i) && !beside {
+            return;
+        }
+        let left = at.water.left(lamp, at.place.position.as_dvec3());
+        self.inner.arrivals(at.place, at.occlude, &mut |arrival| {
+            receive(match arrival {
+                Arrival::Beam { toward, irradiance, radius } => {
+                    Arrival::Beam { toward, irradiance: irradiance * left, radius }
+                }
+                Arrival::Field { irradiance } => Arrival::Field { irradiance: irradiance * left },
+            });
+        });
     }
 
     /// The sun's light that a view ray gains.
@@ -195,13 +215,11 @@ impl Lit {
     /// The same of a lamp's.
     fn lamp_along(&self, i: usize, ray: &ViewRay, occlude: &dyn Occlude) -> Spectrum {
         let (water, scattering) = (&self.waters[i], &self.held[i].scattering);
-        let Some(lamp) = self.point((0, 1), ray.from) else { return Spectrum::ZERO };
-        // A lamp in another water is left out.
-        let inside = water.depth(lamp.at).is_some_and(|depth| depth > 0.0);
-        let ways: &[(Way, Part)] = match inside {
-            true => &[(Way::Direct, Part::Direct), (Way::Mirrored, Part::Reflected)],
-            false if !water.surface.is_below(lamp.at) => &[(Way::Refracted, Part::Through)],
-            false => &[],
+        let Some(lamp) = self.point((0, 1), &within(ray.from, DVec3::Y)) else { return Spectrum::ZERO };
+        let ways: &[(Way, Part)] = match self.lamp_in {
+            Some(inside) if inside == i => &[(Way::Direct, Part::Direct), (Way::Mirrored, Part::Reflected)],
+            None if !water.surface.is_below(lamp.at) => &[(Way::Refracted, Part::Through)],
+            _ => &[],
         };
         let beside = Beside { water, scattering, lamp: &lamp, ray, occlude };
         let ways = ways.iter().filter(|(_, part)| self.part.has(*part));
@@ -224,25 +242,15 @@ impl Illuminate for Lit {
         if let Some((i, depth)) = self.under(place.position.as_dvec3()) {
             return self.below(i, &At { water: &self.waters[i], place, depth, occlude }, receive);
         }
-        let (lamp, lamp_in) = (self.source.lamp(), self.lamp_in);
-        if lamp_in.is_none() && self.part.has(Part::Direct) {
-            self.inner.arrivals_on(face, place, occlude, receive);
+        if self.part.has(Part::Direct) {
+            match (self.cut, self.lamp_in) {
+                (true, _) => self.straight(None, place, occlude, receive),
+                (false, None) => self.inner.arrivals_on(face, place, occlude, receive),
+                (false, Some(_)) => {}
+            }
         }
-        for (i, water) in self.waters.iter().enumerate() {
-            let depth = water.surface.level - f64::from(place.position.y);
-            if depth >= -ON {
-                continue;
-            }
-            let at = At { water, place, depth, occlude };
-            match (self.source, lamp) {
-                (Source::Toward(toward), _) => at.sun_mirrored(receive, self, toward),
-                (_, Some(lamp))
-                    if lamp_in == Some(i) || (lamp_in.is_none() && !water.surface.is_below(lamp)) =>
-                {
-                    at.lamp(receive, self);
-                }
-                _ => {}
-            }
+        for i in 0..self.waters.len() {
+            self.off(i, place, occlude, receive);
         }
     }
 
@@ -273,6 +281,20 @@ impl Illuminate for Lit {
             Source::At(_) | Source::Area(_) => self.lamp_along(i, &view, occlude),
         }
     }
+}
+
+/// Which of the waters a point is in.
+fn holder(waters: &[FlatWater], point: DVec3) -> Option<usize> {
+    waters.iter().position(|water| water.depth(point).is_some_and(|depth| depth > 0.0))
+}
+
+/// Whether a lamp lies partly above and partly below a water's surface, by its middle.
+fn cuts(water: &FlatWater, lamp: &AreaLight) -> bool {
+    let reach = match lamp.shape {
+        AreaShape::Rectangle { half_u, half_v } => half_u.y.abs() + half_v.y.abs(),
+        AreaShape::Sphere { radius } => radius,
+    };
+    water.depth(lamp.centre.as_dvec3()).is_some_and(|depth| depth.abs() < f64::from(reach))
 }
 
 /// A ray to the sky from a water.

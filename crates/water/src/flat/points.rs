@@ -1,8 +1,11 @@
 //! Points that lamps shine from.
 
 use glam::{DVec3, Vec3};
-use light::sampling::{disc, lattice};
+use light::sampling::{disc, lattice, shift};
 use light::{AreaLight, AreaShape, Arrival, Illuminate, Occlude, Place, Spectrum};
+
+/// What sets of points are for, among those that share a seed.
+const PURPOSE: u32 = 0x1A3F;
 
 /// A point that shines: a luminaire, or one of those that stand for a lamp with an extent.
 pub(super) struct Point<'a> {
@@ -35,11 +38,13 @@ impl<'a> Point<'a> {
         Self { at, shines: Shines::AsItSays(says) }
     }
 
-    /// Part `i` of `count` of a luminous area, for light towards `to`. A rectangle's parts are points of it that stand still; a
-    /// sphere's lie on the disc that `to` sees. One alone is the middle.
-    pub(super) fn part(lamp: &AreaLight, (i, count): (u32, u32), to: DVec3) -> Self {
-        let [x, y] = lattice(i, count, [0, 0]);
-        let [x, y] = [x + 0.5 / count as f32, (y + 0.5).fract()];
+    /// Part `i` of `count` of a luminous area, for light towards the place `to`, whose seed moves all of them: points of a rectangle, or of the
+    /// disc that `to` sees of a sphere. One alone is the middle.
+    pub(super) fn part(lamp: &AreaLight, (i, count): (u32, u32), to: &Place) -> Self {
+        let [x, y] = match count {
+            1 => [0.5; 2],
+            _ => lattice(i, count, shift(to.seed, PURPOSE)),
+        };
         let share = 1.0 / count as f32;
         let (offset, area, facing) = match lamp.shape {
             AreaShape::Rectangle { half_u, half_v } => {
@@ -47,7 +52,7 @@ impl<'a> Point<'a> {
                 (offset, lamp.area() * share, Some(half_u.cross(half_v).normalize_or_zero()))
             }
             AreaShape::Sphere { radius } => {
-                let toward = (to - lamp.centre.as_dvec3()).as_vec3().try_normalize().unwrap_or(Vec3::Y);
+                let toward = (to.position - lamp.centre).try_normalize().unwrap_or(Vec3::Y);
                 let (a, b) = toward.any_orthonormal_pair();
                 let [p, q] = if count == 1 { [0.0; 2] } else { disc([x, y]) };
                 // The disc that is seen of it is a fourth of its surface.

@@ -1,11 +1,14 @@
 //! Where flat water is.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
-use light::Mesh;
+use light::{Mesh, Spectrum};
 
-use crate::{Surface, Water};
+use super::cover::Cover;
+use crate::scatter::Bed;
+use crate::{Loss, Scattering, Surface, Water};
 
 /// Water below a level surface with an outline, down to whatever its bottom is.
 #[derive(Clone, Debug)]
@@ -14,12 +17,12 @@ pub struct FlatWater {
     pub water: Water,
     /// Height and index.
     pub surface: Surface,
-    /// The surface in triangles, x and z in the world \[m\].
-    triangles: Vec<[DVec2; 3]>,
+    /// The surface, x and z in the world \[m\].
+    cover: Cover,
     /// Edges of one triangle only: the outline.
     outline: Vec<[DVec2; 2]>,
-    low: DVec2,
-    high: DVec2,
+    /// How deep it is; none = deeper than light comes.
+    bed: Option<Arc<Bed>>,
 }
 
 impl FlatWater {
@@ -29,32 +32,54 @@ impl FlatWater {
             let p = place.transform_point3(mesh.positions[i as usize].as_dvec3());
             DVec2::new(p.x, p.z)
         };
-        let triangles: Vec<[DVec2; 3]> = mesh.triangles.iter().map(|t| t.map(at)).collect();
-        let corners = || triangles.iter().flatten().copied();
         Self {
-            low: corners().reduce(DVec2::min).unwrap_or(DVec2::INFINITY),
-            high: corners().reduce(DVec2::max).unwrap_or(DVec2::NEG_INFINITY),
             surface: Surface::of(&water, place.translation.y),
             water,
-            triangles,
+            cover: Cover::new(mesh.triangles.iter().map(|t| t.map(at))),
+            bed: None,
             outline: outline(mesh).into_iter().map(|edge| edge.map(at)).collect(),
+        }
+    }
+
+    /// The same over a bed, which limits how often light is scattered ([`crate::Scattering::over`]).
+    pub fn over(self, bed: Bed) -> Self {
+        Self { bed: Some(Arc::new(bed)), ..self }
+    }
+
+    /// How light is scattered in it.
+    pub(super) fn scattering(&self) -> Scattering {
+        let deep = Scattering::new(self.water.clone(), self.surface.level, Loss::Diffuse);
+        match &self.bed {
+            Some(bed) => deep.over(Arc::clone(bed)),
+            None => deep,
         }
     }
 
     /// The rectangle about the outline: its corners of least and largest x and z \[m\].
     pub fn extent(&self) -> [DVec2; 2] {
-        [self.low, self.high]
+        self.cover.extent()
     }
 
     /// Whether the vertical through x, z meets the surface; its rim belongs to it.
     pub fn covers(&self, at: DVec2) -> bool {
-        let boxed = at.cmpge(self.low).all() && at.cmple(self.high).all();
-        boxed && self.triangles.iter().any(|triangle| holds(triangle, at))
+        self.cover.holds(at)
     }
 
     /// How deep below the surface a point lies \[m\], negative above it; none beside the water.
     pub fn depth(&self, point: DVec3) -> Option<f64> {
         self.covers(DVec2::new(point.x, point.z)).then_some(self.surface.level - point.y)
+    }
+
+    /// What is left of light that lights things at `to`, in this water, of its way from `from` straight through the water and its sides.
+    pub(super) fn left(&self, from: DVec3, to: DVec3) -> Spectrum {
+        let [a, b] = [from, to].map(|p| DVec2::new(p.x, p.z));
+        // Above the level there is no water.
+        let under = |p: DVec3| p.y < self.surface.level;
+        let share = match (under(from), under(to)) {
+            (true, true) => self.stretches(a, b).iter().map(|[from, to]| to - from).sum(),
+            _ => 1.0,
+        };
+        self.water.loss(Loss::Diffuse).attenuate((from.distance(to) * share) as f32)
     }
 
     /// The edges of the surface, x and z in the world \[m\], in no order.
@@ -64,7 +89,8 @@ impl FlatWater {
 
     /// A point of the surface's height in the middle of all of it.
     pub(super) fn middle(&self) -> DVec3 {
-        let at = self.low.midpoint(self.high);
+        let [low, high] = self.extent();
+        let at = low.midpoint(high);
         DVec3::new(at.x, self.surface.level, at.y)
     }
 
@@ -99,10 +125,4 @@ fn crossing([from, to]: &[DVec2; 2], a: DVec2, way: DVec2) -> Option<f64> {
     let (along, on_edge) = (start.perp_dot(edge) / across, start.perp_dot(way) / across);
     // Parallel ones give no number.
     (along > 0.0 && along < 1.0 && (0.0..=1.0).contains(&on_edge)).then_some(along)
-}
-
-/// Whether a point lies in a triangle of either orientation.
-fn holds(&[a, b, c]: &[DVec2; 3], p: DVec2) -> bool {
-    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(p - from));
-    sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
 }

@@ -26,7 +26,7 @@ impl Shaft {
 pub(super) const PROBES: u32 = 32;
 /// Halvings of the way between two of them that differ: ends of shadows are found to 1/32 · 2⁻¹⁰ of the ray, 3e-5.
 const HALVINGS: u32 = 10;
-/// Looks at a stretch that things partly let light through to.
+/// Least looks at a stretch that things partly let light through to: a longer one has as many as its part of the [`PROBES`] of the whole ray.
 const VEILED: u32 = 4;
 /// Shares that differ by less are one: products of transmittances round.
 const ALIKE: f32 = 1e-3;
@@ -111,10 +111,15 @@ pub(super) fn between(
             continue;
         }
         match over(false) {
-            true => probed([from, to], VEILED, seen, out),
+            true => probed([from, to], looks(pair[1] - pair[0]), seen, out),
             false => join(Shaft { from, to, share: Spectrum::ONE }, out),
         }
     }
+}
+
+/// Looks at a stretch that is a `share` of its ray.
+fn looks(share: f64) -> u32 {
+    (f64::from(PROBES) * share).ceil().clamp(f64::from(VEILED), f64::from(PROBES)) as u32
 }
 
 /// The stretch between two distances by looking at `count` places of it; where two neighbours differ, the end of the shadow
@@ -151,5 +156,26 @@ fn join(shaft: Shaft, out: &mut Vec<Shaft>) {
     match out.last_mut() {
         Some(last) if last.to == shaft.from && last.share == shaft.share => last.to = shaft.to,
         _ => out.push(shaft),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_veiled_stretch_is_found_as_well_as_a_short_one() {
+        // Leaves that are dark over half of every metre of a ray of 8 m, and a veil over all of it or over one metre.
+        let leaf = |r: f64| if r.fract() < 0.5 { Spectrum::ZERO } else { Spectrum::splat(0.8) };
+        let light = |from: f64, to: f64| {
+            let veil = [Stretch { from: from / 8.0, to: to / 8.0, dark: false }];
+            let mut out = Vec::new();
+            between(&veil, [from / 8.0, to / 8.0], 8.0, &leaf, &mut out);
+            out.iter().map(|shaft| (shaft.to - shaft.from) * f64::from(shaft.share[0])).sum::<f64>()
+                / (to - from)
+        };
+        // Ends between two looks, 1/4 m apart, are found by ten halvings.
+        let [short, long] = [light(3.0, 4.0), light(0.0, 8.0)];
+        assert!((short - 0.4).abs() < 1e-3 && (long - 0.4).abs() < 2e-3, "{short} {long}");
     }
 }

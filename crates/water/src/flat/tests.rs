@@ -1,3 +1,4 @@
+mod lamps;
 mod parts;
 mod scattered;
 mod shadows;
@@ -12,7 +13,7 @@ use light::{
 };
 
 use super::*;
-use crate::{Phase, Scatterer, Water};
+use crate::{Loss, Phase, Scatterer, Water};
 
 /// The index of the tests' water.
 const N: f64 = 1.34;

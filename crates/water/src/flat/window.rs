@@ -3,11 +3,19 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3, Vec3};
+use light::sampling::{lattice, shift};
 use light::{Occlude, Place, Spectrum, fresnel};
 
 use super::FlatWater;
 use super::shafts::{Parallel, Shaft, on_surface};
 use crate::{Loss, ScatteredSky, Scattering, SkyBelow, SunBelow, ViewRay};
+
+/// Sets of directions at least and at most; and directions in all of them, as far as the least number of sets allows (80 bytes each).
+const SETS: [u32; 2] = [4, 32];
+const LOOKS: u32 = 1 << 16;
+
+/// What sets of directions are for, among those that share a seed.
+const PURPOSE: u32 = 0x5E11;
 
 /// One direction out of many that stand for the sky.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +29,12 @@ struct Look {
 /// The sky through Snell's window, as surfaces under water receive it.
 ///
 /// How much there is with nothing in the way a table knows ([`SkyBelow`]). The share of it that arrives is looked for in
-/// directions that stand still, spread evenly over the window, each weighed with what would arrive from it: no noise, and where all
-/// is seen, or nothing, no error.
+/// directions spread evenly over the window, each weighed with what would arrive from it: where all is seen, or nothing, there is no
+/// error. The place's seed says which of some sets of directions those are, so that what it is asked again and again says how good they are.
 pub(super) struct Window {
     table: SkyBelow,
-    looks: Vec<Look>,
+    /// Sets of directions.
+    looks: Vec<Vec<Look>>,
     coefficient: Spectrum,
 }
 
@@ -34,7 +43,9 @@ impl Window {
     pub(super) fn new(water: &FlatWater, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
         let coefficient = water.water.loss(Loss::Diffuse);
         let table = SkyBelow::new(&water.surface, coefficient, &radiance);
-        Self { table, looks: looks(water.surface.index, count, radiance), coefficient }
+        let sets = (LOOKS / count.max(1)).clamp(SETS[0], SETS[1]);
+        let set = |i: u32| looks(water.surface.index, count, shift(i, PURPOSE), &radiance);
+        Self { table, looks: (0..sets).map(set).collect(), coefficient }
     }
 
     /// Irradiance on the plane of `place`, `depth` metres deep \[W m⁻² nm⁻¹\].
@@ -46,7 +57,8 @@ impl Window {
     ) -> Spectrum {
         let (mut all, mut seen) = (Spectrum::ZERO, Spectrum::ZERO);
         let foot = DVec2::new(f64::from(place.position.x), f64::from(place.position.z));
-        for look in &self.looks {
+        let [set, _] = shift(place.seed, PURPOSE);
+        for look in &self.looks[set as usize % self.looks.len()] {
             let below = look.light.below;
             let cosine = below.as_vec3().dot(place.normal);
             if cosine <= 0.0 {
@@ -83,7 +95,8 @@ impl Glow {
             let horizontal = look.facing * look.light.below.y as f32;
             (look.light, SunBelow { toward: look.light.below, horizontal })
         };
-        let looks = looks(scattering.surface().index, count, &radiance).into_iter().map(sun).collect();
+        let looks =
+            looks(scattering.surface().index, count, [1 << 31, 0], &radiance).into_iter().map(sun).collect();
         Self { table: ScatteredSky::new(scattering, radiance), looks }
     }
 
@@ -118,13 +131,13 @@ pub(super) fn lit(
     }
 }
 
-/// Directions spread evenly over the window: what comes from each.
-fn looks(n: f64, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Vec<Look> {
+/// `count` directions spread evenly over the window, moved by `shift`, around the vertical and each within its own ring: what comes from each.
+fn looks(n: f64, count: u32, shift: [u32; 2], radiance: impl Fn(Vec3) -> Spectrum) -> Vec<Look> {
     let window = 1.0 - (1.0 - 1.0 / (n * n)).sqrt();
     let each = TAU * window / f64::from(count);
     let look = |i: u32| {
-        let [along, turn] = light::sampling::lattice(i, count, [0, 0]);
-        let up = 1.0 - (f64::from(along) + 0.5 / f64::from(count)).min(1.0) * window;
+        let [along, turn] = lattice(i, count, [shift[0] / count, shift[1]]);
+        let up = 1.0 - f64::from(along) * window;
         let (s, c) = (f64::from(turn) * TAU).sin_cos();
         let level = (1.0 - up * up).max(0.0).sqrt();
         let sin = (level * n).min(1.0);

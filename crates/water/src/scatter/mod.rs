@@ -9,6 +9,7 @@
 //! scattering: the default, nearer the truth). What it misses [`Scattering::often`] makes good for deep
 //! water.
 
+mod bed;
 mod fade;
 mod lamp;
 pub mod multiple;
@@ -18,12 +19,15 @@ mod sun;
 #[cfg(test)]
 mod tests;
 
-use glam::DVec3;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
 use light::Spectrum;
 
+pub use bed::Bed;
 pub use lamp::{LAMP_TOLERANCE, Light};
 pub use sky::ScatteredSky;
-pub use steps::{Stepped, Steps};
+pub use steps::{MOST_STEPS, Stepped, Steps};
 
 use crate::{Loss, Surface, Water};
 
@@ -53,20 +57,27 @@ pub struct Scattering {
     coefficient: Spectrum,
     /// What is scattered more than once, as if it were even volume scattering \[1/(m sr)\]; 0 for scattering once.
     evenly: Spectrum,
+    /// How deep it is; none = deeper than light comes.
+    bed: Option<Arc<Bed>>,
 }
 
 impl Scattering {
     /// `water` below a surface at height `level` \[m\], with the loss that its light is to have.
     pub fn new(water: Water, level: f64, loss: Loss) -> Self {
         let (surface, coefficient) = (Surface::of(&water, level), water.loss(loss));
-        Self { water, surface, coefficient, evenly: Spectrum::ZERO }
+        Self { water, surface, coefficient, evenly: Spectrum::ZERO, bed: None }
     }
 
     /// The same, with the light of sun and sky that is scattered more than once, with [`Loss::Diffuse`], by the factor of
-    /// [`multiple`]; view rays tell by where they end how deep the water is.
+    /// [`multiple`]: in deep water, unless there is a bed ([`Self::over`]).
     pub fn often(mut self) -> Self {
         self.evenly = multiple::evenly(&self.water);
         self
+    }
+
+    /// The same over a bed, where there is less room for being scattered more than once ([`multiple::room`]).
+    pub fn over(self, bed: Arc<Bed>) -> Self {
+        Self { bed: Some(bed), ..self }
     }
 
     /// The water.
@@ -90,14 +101,15 @@ impl Scattering {
     }
 
     /// What [`multiple`] adds to that along a view ray, if it is wanted.
+    ///
+    /// Its room is that of the water where the ray runs: from the surface down to the bed below the middle of what is seen of it (its
+    /// length, or the 1/κ from which most of its light comes), whatever its direction is and wherever it ends.
     fn evenly(&self, ray: &ViewRay) -> Spectrum {
-        if self.evenly.is_zero() {
-            return self.evenly;
-        }
-        let reach = ray.direction.y.min(0.0) * ray.length;
-        let depth = (self.depth(ray.from) - if reach.is_nan() { 0.0 } else { reach }).max(0.0);
-        let room = |c: f32| multiple::room(f64::from(c), depth) as f32;
-        self.evenly * self.water.extinction().map(room)
+        let Some(bed) = self.bed.as_ref().filter(|_| !self.evenly.is_zero()) else { return self.evenly };
+        let lost = f64::from(self.coefficient.0.iter().sum::<f32>()) / self.coefficient.0.len() as f64;
+        let middle = ray.at(0.5 * ray.length.min(1.0 / lost.max(1e-9)));
+        let depth = bed.depth(DVec2::new(middle.x, middle.z)).max(self.depth(middle));
+        self.evenly * self.water.extinction().map(|c| multiple::room(f64::from(c), depth) as f32)
     }
 
     fn depth(&self, point: DVec3) -> f64 {

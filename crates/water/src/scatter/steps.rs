@@ -6,6 +6,9 @@ use light::bands::BANDS;
 use super::{Light, Scattering, ViewRay};
 use crate::path::Way;
 
+/// Steps each way from where they begin are no more than this: on longer ways they are longer. The thesis has no bound.
+pub const MOST_STEPS: usize = 100_000;
+
 /// How the thesis steps along a view ray (3.33 to 3.35).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steps {
@@ -34,7 +37,7 @@ impl Scattering {
     ///   S_(i+1) = S_i + min(longest, max(longest · I_ref/I_S, shortest)) u
     ///
     /// from the point nearest to the luminaire's `axis` both ways (from the surface down for one in air), until light gets less with every
-    /// step and is negligible. There is no bound on the error; [`Scattering::lamp`] has one.
+    /// step and is negligible, or [`MOST_STEPS`] are taken. There is no bound on the error; [`Scattering::lamp`] has one.
     pub fn lamp_by_steps(
         &self,
         at: DVec3,
@@ -87,6 +90,8 @@ impl Scattering {
             return;
         }
         let look = |walked: f64| self.per_metre(way, at, light, ray, start + sign * walked);
+        // One less, for the last is cut off at the end of the way.
+        let least = room / (MOST_STEPS - 1) as f64;
         let (mut walked, mut here, mut step) = (0.0, look(0.0), steps.longest);
         sum.evaluations += 1;
         while walked < room {
@@ -95,7 +100,7 @@ impl Scattering {
             if bright > 0.0 {
                 step = (steps.longest * steps.reference / bright).max(steps.shortest).min(steps.longest);
             }
-            let next = (walked + step).min(room);
+            let next = (walked + step.max(least)).min(room);
             // A step too short for f64, or none at all, would never end.
             if next <= walked || next.is_nan() {
                 break;

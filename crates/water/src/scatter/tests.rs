@@ -304,7 +304,7 @@ fn lamps_on_the_ray_and_dark_lamps_do_no_harm() {
     );
     let still = Steps { longest: 1.0, shortest: 0.0, reference: 0.0, negligible: 0.0 };
     let stuck = scattering.lamp_by_steps(DVec3::new(0.0, -1.0, 0.5), DVec3::Y, &even, &ray, &still);
-    assert!(stuck.evaluations < 10, "steps of no length end");
+    assert!(stuck.evaluations <= 4 * (MOST_STEPS + 1), "steps of no length end");
     // A spotlight, with its own distribution: only what lies in its beam.
     let spot = Distribution::new(vec![0.0], vec![0.0, 10.0, 12.0], vec![100.0, 100.0, 0.0]).unwrap();
     let light = |leg: &Leg, _: DVec3| {
@@ -344,4 +344,103 @@ proptest! {
         // Either way of light has a hundredth of its own; f32 noise of what underflows.
         prop_assert!((rough.value[0] - fine.value[0]).abs() <= 2e-2 * fine.value[0] + 1e-30, "{:?} {:?}", rough, fine);
     }
+}
+
+/// Everywhere this deep.
+fn bed(depth: f64) -> std::sync::Arc<Bed> {
+    std::sync::Arc::new(Bed::new([glam::DVec2::splat(-50.0), glam::DVec2::splat(50.0)], 3, |_| Some(depth)))
+}
+
+#[test]
+fn room_is_that_of_the_water_wherever_rays_look_and_end() {
+    let (once, deep) = (grey(0.9, Phase::petzold(), Loss::Diffuse), 4.0);
+    let often = once.clone().often().over(bed(deep));
+    let sun = sun_at(&once, 30.0);
+    // By how much more is scattered than once, over how much there would be in deep water.
+    let room = |ray: &ViewRay| {
+        let whole = [[0.0, f64::INFINITY]];
+        let of = |scattering: &Scattering| f64::from(scattering.sun(&sun, ray, &whole)[3]);
+        let (found, open) = (of(&often) - of(&once), of(&once.clone().often()) - of(&once));
+        // Each of the four is rounded a few times.
+        (found / open, 8.0 * f64::from(f32::EPSILON) * of(&once.clone().often()) / open)
+    };
+    let expected = multiple::room(1.0, deep);
+    for degrees in (-90..=90).step_by(3) {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        for length in [0.01, 0.5, 1.0, 3.0] {
+            let ray = ViewRay { from: DVec3::NEG_Y, direction: DVec3::new(cos, sin, 0.0), length };
+            let (got, rounded) = room(&ray);
+            assert!(
+                (got - expected).abs() < rounded && rounded < 0.1,
+                "{degrees}°, {length} m: {got} {expected}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    /// What rays bring back is continuous over their elevation, over a bed that slopes.
+    #[test]
+    fn scattered_light_is_continuous_over_elevation(degrees in -89.0..89.0f64, depth in 0.1..1.5f64, angle in 0.0..80.0f64) {
+        let once = grey(0.9, Phase::water(), Loss::Diffuse);
+        let slope = Bed::new([glam::DVec2::splat(-50.0), glam::DVec2::splat(50.0)], 101, |at| Some(2.0 + 0.01 * at.x));
+        let often = once.clone().often().over(std::sync::Arc::new(slope));
+        let (sun, sky) = (sun_at(&once, angle), ScatteredSky::new(often.clone(), |_| Spectrum::ONE));
+        let of = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            // Up to the surface, down to 1.6 m, no farther than 20 m.
+            let room = if sin > 0.0 { depth } else { 1.6 - depth };
+            let length = (room / sin.abs()).min(20.0);
+            let ray = ViewRay { from: DVec3::NEG_Y * depth, direction: DVec3::new(cos, sin, 0.0), length };
+            [often.sun(&sun, &ray, &[[0.0, length]])[3], sky.radiance(&ray)[3]]
+        };
+        let (here, near) = (of(degrees), of(degrees + 1e-3));
+        for (here, near) in here.into_iter().zip(near) {
+            // A thousandth of a degree, 1.7e-5, of rays that grow by 1/sin of their elevation: 12 times that and more until they are cut off.
+            prop_assert!(here > 0.0 && (near / here - 1.0).abs() < 1e-3, "{} {}", here, near);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// However long the way, however clear the water and however short the steps, stepping ends.
+    #[test]
+    fn steps_of_the_thesis_end(
+        power in -9.0..6.0f64, length in -3.0..5.0f64, clear in -6.0..2.0f64, y in prop::sample::select(vec![-3.0, 2.0]), dark in any::<bool>(),
+    ) {
+        let water = Water::new(Spectrum::splat(0.5 * 10f32.powf(clear as f32)), vec![], 1.34).unwrap();
+        let scattering = Scattering::new(water, 0.0, Loss::Diffuse);
+        let ray = ViewRay { from: DVec3::NEG_Y, direction: DVec3::new(0.8, -0.6, 0.0), length: 10f64.powf(length) };
+        let longest = 10f64.powf(power);
+        let steps = Steps { longest, shortest: 0.05 * longest, reference: if dark { 0.0 } else { 1.0 }, negligible: 0.0 };
+        let found = scattering.lamp_by_steps(DVec3::new(2.0, y, 0.5), DVec3::ZERO, &even, &ray, &steps);
+        // Two ways, each walked to both sides, and a look where each begins.
+        prop_assert!(found.evaluations <= 4 * (MOST_STEPS + 1), "{}", found.evaluations);
+        prop_assert!(found.radiance.iter().all(|band| band.is_finite()));
+    }
+}
+
+#[test]
+fn capped_steps_find_the_same_as_finer_ones_on_a_short_way() {
+    // Steps of 1e-9 m would be 4e9 of them: 40 µm it is.
+    let scattering = Scattering::new(Water::named("jerlov-3C").unwrap(), 0.0, Loss::Diffuse);
+    let ray = ViewRay { from: DVec3::ZERO, direction: DVec3::NEG_Y, length: 4.0 };
+    let lamp = DVec3::new(1.0, 2.0, 0.0);
+    let of = |longest: f64| {
+        let steps = Steps { longest, shortest: longest, reference: 1.0, negligible: 0.0 };
+        scattering.lamp_by_steps(lamp, DVec3::ZERO, &even, &ray, &steps)
+    };
+    let (capped, fine) = (of(1e-9), of(1e-3));
+    assert!(capped.evaluations > 90_000 && capped.evaluations <= MOST_STEPS + 1);
+    // Trapezoids of 1 mm: h²/12 of the curvature, some 10 to the square metre, relative.
+    assert!(
+        (capped.radiance[2] / fine.radiance[2] - 1.0).abs() < 1e-5,
+        "{} {}",
+        capped.radiance[2],
+        fine.radiance[2]
+    );
 }

@@ -5,6 +5,7 @@
 
 mod error;
 mod shade;
+mod sight;
 mod stokes;
 #[cfg(test)]
 mod tests;
@@ -131,6 +132,13 @@ impl Waves {
         let mut sum = Facet::default();
         self.waves.iter().for_each(|wave| wave.add_to(&mut sum, at - self.origin, self.moment, footprint));
         sum
+    }
+
+    /// The height of wave number `i` alone, over a footprint.
+    fn height_of(&self, i: usize, at: DVec2, footprint: Covariance) -> f64 {
+        let mut facet = Facet::default();
+        self.waves[i].add_to(&mut facet, at - self.origin, self.moment, footprint);
+        facet.height
     }
 
     /// A bound on |height| \[m\].

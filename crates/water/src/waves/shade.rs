@@ -6,15 +6,12 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use light::{Arrival, Hit, Shade, Spectrum, Surroundings, fresnel, reflect, refract};
 
+use super::sight::{Sight, Way};
 use super::{Covariance, Facet, Waves};
 use crate::Surface;
 
 /// Facets count as seen under this cosine at least: more grazing ones are behind others.
 const GRAZING: f64 = 1e-3;
-
-/// Steps to where the eye's ray meets the waves, at most; and within which share of their height it has met them.
-const STEPS: usize = 48;
-const MET: f64 = 0.01;
 
 /// A wavy surface, by its level outline: what it mirrors, and what comes through it (3.21 without its cos θ_j, as
 /// [`crate::flat::SurfaceShade`] has it), with the facet that the eye's ray meets first.
@@ -29,8 +26,8 @@ const MET: f64 = 0.01;
 /// lost. Share of what is mirrored is that of the mean facet.
 ///
 /// *Errors.* Rays go on from the level outline and not from the facet: what is seen in and through the surface is moved sideways by up
-/// to the waves' height times the ray's lean. The first facet is looked for in 48 steps, which do not reach it from eyes below some 12° of
-/// elevation over the many waves of a wind. Waves do not rise over the rim of the outline.
+/// to the waves' height times the ray's lean. A crest that the ray touches over less than 1/64 of a wave, or 1/4096 of its way between the heights
+/// that waves reach (of importance below 1° of elevation), may be missed. Waves do not rise over the rim of the outline.
 pub struct WavyShade {
     surface: Surface,
     waves: Arc<Waves>,
@@ -51,21 +48,8 @@ impl WavyShade {
         let hit_at = hit.place.position.as_dvec3();
         let run = DVec2::new(toward.x, toward.z);
         let rise = (side * toward.y).max(GRAZING);
-        let highest = self.waves.highest();
-        // How far from the hit back to the eye, and what the ray and the waves can come nearer by for each metre.
-        let mut back = (highest / rise).min(f64::from(hit.distance));
-        let approach = rise + self.waves.steepest() * run.length();
-        let mut facet = Facet::default();
-        for _ in 0..STEPS {
-            let at = DVec2::new(hit_at.x, hit_at.z) + run * back;
-            facet = self.waves.facet(at, footprint);
-            let over = rise * back - side * facet.height;
-            if over <= MET * highest {
-                break;
-            }
-            back -= over / approach;
-        }
-        facet
+        let way = Way { at: DVec2::new(hit_at.x, hit_at.z), run, rise, side };
+        Sight::new(&self.waves, footprint, way).met(f64::from(hit.distance))
     }
 }
 
@@ -259,8 +243,8 @@ mod tests {
                 }
                 back -= 1e-5;
             };
-            // Met within a hundredth of the height, over how fast a ray nears the surface: the slope changes by k times its own.
-            let bound = MET * shade.waves.highest() / (0.3 * up.abs()) * TAU * shade.waves.steepest();
+            // Met within a step of 1e-5: the slope changes by k times its own, and twice that in sharp crests.
+            let bound = 1e-5 * 2.0 * TAU * shade.waves.steepest();
             assert!((got.slope - met.slope).length() < bound, "{up}: {:?} {:?}", got.slope, met.slope);
             assert!(met.normal().dot(toward) * up.signum() > 0.0);
         }

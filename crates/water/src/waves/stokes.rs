@@ -76,6 +76,21 @@ impl Stokes {
         2.0 * self.amplitude * (1.0 + 0.375 * self.ka().powi(2))
     }
 
+    /// Radians of phase to a metre along a way of this run.
+    pub(super) fn along(&self, run: DVec2) -> f64 {
+        self.k.dot(run).abs()
+    }
+
+    /// The same along itself: k.
+    pub(super) fn wavenumber(&self) -> f64 {
+        self.wavenumber
+    }
+
+    /// What a footprint leaves of its first harmonic; of the others it leaves less.
+    pub(super) fn kept(&self, footprint: Covariance) -> f64 {
+        (-0.5 * footprint.along(self.k).max(0.0)).exp()
+    }
+
     fn ka(&self) -> f64 {
         self.wavenumber * self.amplitude
     }

@@ -1,6 +1,8 @@
 //! Where the surface of a water is: a polygon, or a node of a model.
 
-use glam::{DAffine3, DVec3};
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DVec3, Vec3};
 use light::Mesh;
 
 use super::super::inline;
@@ -24,7 +26,10 @@ pub(crate) fn claims(root: &Spot<'_>, tables: &[WaterTable]) -> Result<Claims, E
         ])?;
         let node = table.node.clone().map(Wanted::Node);
         match (node.or_else(|| table.material.clone().map(Wanted::Material)), &table.model) {
-            (Some(wanted), model) => claims.of.push(Claim { water: i, model: model.clone(), wanted }),
+            (Some(wanted), model) => {
+                let name = name(table, i + 1);
+                claims.of.push(Claim { water: i, name, model: model.clone(), wanted });
+            }
             (None, Some(_)) => {
                 let what = "says which model a node or a material is in, but the water names none";
                 return Err(spot.key("model").error(what));
@@ -33,6 +38,11 @@ pub(crate) fn claims(root: &Spot<'_>, tables: &[WaterTable]) -> Result<Claims, E
         }
     }
     Ok(claims)
+}
+
+/// What the water of a table is called, which is number `number` (from 1).
+pub(super) fn name(table: &WaterTable, number: usize) -> String {
+    table.name.clone().unwrap_or_else(|| format!("water-{number}"))
 }
 
 /// A surface that is drawn as a polygon, about its middle, with where that is.
@@ -54,6 +64,11 @@ pub(super) fn of_model(spot: &Spot<'_>, water: usize, claims: &Claims) -> Result
     let spot = spot.key(if is_node { "node" } else { "material" });
     let parts: Vec<_> = claims.found.iter().filter(|found| found.water == water).collect();
     if parts.is_empty() {
+        if let Some([first, second]) = twice(water, claims) {
+            return Err(spot.error(format!(
+                "the waters {first} and {second} claim the same faces: a surface is that of one water"
+            )));
+        }
         let (what, names) = if is_node { ("node", &claims.names[0]) } else { ("material", &claims.names[1]) };
         let known = list(names.iter().map(|name| &**name));
         return Err(spot.error(format!("no model shows a {what} of that name; there are {known}")));
@@ -65,14 +80,40 @@ pub(super) fn of_model(spot: &Spot<'_>, water: usize, claims: &Claims) -> Result
     }
     let sum: DVec3 = corners.iter().sum();
     let middle = (sum / corners.len() as f64).round().with_y(first.y);
-    let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let positions = corners.iter().map(|c| (*c - middle).as_vec3()).collect();
-    let mesh = Mesh { positions, triangles, ..Mesh::default() };
-    let mesh = facing_up(mesh);
+    let mesh = facing_up(welded(corners.iter().map(|c| (*c - middle).as_vec3().with_y(0.0))));
     if mesh.triangles.is_empty() {
         return Err(spot.error(EMPTY));
     }
     Ok((mesh, DAffine3::from_translation(middle)))
+}
+
+/// The names of another water that has got what water number `water` wants, and of that one.
+fn twice(water: usize, claims: &Claims) -> Option<[String; 2]> {
+    let own = claims.of.iter().find(|claim| claim.water == water)?;
+    let alike = |other: &&Claim| {
+        let model = other.model == own.model || other.model.is_none() || own.model.is_none();
+        other.water != water && model && other.wanted == own.wanted
+    };
+    let got = |other: &&Claim| claims.found.iter().any(|found| found.water == other.water);
+    let other = claims.of.iter().filter(alike).find(got)?;
+    Some([other, own].map(|claim| format!("{:?}", claim.name)))
+}
+
+/// Triangles of level corners, three by three, as a mesh in which those at the same x and z are one: edges that two triangles share are no
+/// outline.
+fn welded(corners: impl Iterator<Item = Vec3>) -> Mesh {
+    let (mut numbers, mut positions) = (BTreeMap::new(), Vec::new());
+    let number = |corner: Vec3| {
+        // −0 is 0.
+        let place = [corner.x + 0.0, corner.z + 0.0].map(f32::to_bits);
+        *numbers.entry(place).or_insert_with(|| {
+            positions.push(corner);
+            positions.len() as u32 - 1
+        })
+    };
+    let all: Vec<u32> = corners.map(number).collect();
+    let triangles = all.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect();
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 fn level_with(spot: &Spot<'_>, level: f64, corner: DVec3) -> Result<(), Error> {
