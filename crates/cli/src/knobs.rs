@@ -282,7 +282,7 @@ pub const KNOBS: &[Knob] = &[
         name: "water.sky-rays",
         domain: Domain::Integer(0, 65536),
         presets: ["32", "64", "1024"],
-        doc: "directions in which a surface under water looks through Snell's window for the sky, others for each place: 32, 64, 256 leave 2.6, 2.1, 0.7 % of the open sky's light (rms, half of it hidden), nothing where it is open; 0 = nothing hides it (thesis); at sensors 1024 (sky.sensor-rays if that is less) unless it is set; time grows with it",
+        doc: "directions in which a surface under water looks through Snell's window for the sky, the same everywhere in pictures: 32, 64, 256 leave 3, 2, 0.7 % of the open sky's light (rms, half of it hidden), nothing where it is open; 0 = nothing hides it (thesis); at sensors 1024 (sky.sensor-rays if that is less) unless it is set; time grows with it",
     },
     Knob {
         name: "water.sky-shafts",
@@ -363,6 +363,36 @@ pub const KNOBS: &[Knob] = &[
         doc: "places look alike that differ by no more than this share of the brightest of them; of up to 4 places, and at 0, all are looked at",
     },
     Knob {
+        name: "trees",
+        domain: Domain::Choice(&["off", "planes"]),
+        presets: ["planes"; 3],
+        doc: "whether trees are there: as planes that turn to the eye and to each light (thesis 5), or not at all",
+    },
+    Knob {
+        name: "trees.planes",
+        domain: Domain::Integer(0, 64),
+        presets: ["3", "4", "5"],
+        doc: "horizontal planes of a tree, as far as its folder has them; 0 vanishes from above",
+    },
+    Knob {
+        name: "trees.fade",
+        domain: Domain::Choice(&["thesis", "density", "opaque"]),
+        presets: ["density"; 3],
+        doc: "how planes fade with the angle: by its cosine (thesis 5.1), by what its share of the crown's depth lets through, or by its tangent (crowns that let nothing through)",
+    },
+    Knob {
+        name: "trees.turn",
+        domain: Domain::Choice(&["fixed", "eye"]),
+        presets: ["fixed"; 3],
+        doc: "whether pictures on horizontal planes stay or turn with the vertical one (thesis 5.2.1), which spins where one looks straight down",
+    },
+    Knob {
+        name: "trees.shading",
+        domain: Domain::Choice(&["leaves", "thesis"]),
+        presets: ["leaves"; 3],
+        doc: "leaves lit by sun, lamps and sky, and shining through; or eq. 5.4 with α = 0.3 under sun and lamps alone",
+    },
+    Knob {
         name: "ray-depth",
         domain: Domain::Integer(0, 64),
         presets: ["3", "5", "12"],
@@ -376,16 +406,20 @@ pub const KNOBS: &[Knob] = &[
     },
 ];
 
-/// A value for every knob, checked; and the knobs that were set one by one, whatever the preset says.
+/// A value for every knob, checked; the knobs that were set one by one, whatever the preset says; and whether they are for sensors.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(transparent)]
-pub struct Settings(BTreeMap<&'static str, String>, #[serde(skip)] BTreeSet<&'static str>);
+pub struct Settings(
+    BTreeMap<&'static str, String>,
+    #[serde(skip)] BTreeSet<&'static str>,
+    #[serde(skip)] bool,
+);
 
 impl Settings {
     /// The values of a preset.
     pub fn preset(preset: Preset) -> Self {
         let values = KNOBS.iter().map(|knob| (knob.name, knob.presets[preset as usize].to_owned()));
-        Self(values.collect(), BTreeSet::new())
+        Self(values.collect(), BTreeSet::new(), false)
     }
 
     /// Sets a knob by name. `whose` says who asked (`--set`, `[settings]`) in the error.
@@ -423,6 +457,7 @@ impl Settings {
     /// The same for `keikan lux`: sensors are few, and stand where little of the sky is seen. They are asked several times,
     /// each with its share of the rays.
     pub fn at_sensors(mut self) -> Self {
+        self.2 = true;
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
             self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
@@ -433,6 +468,11 @@ impl Settings {
             self.0.insert("sky.visibility", "rays".to_owned());
         }
         self
+    }
+
+    /// Whether they are for sensors: what is asked there several times should differ each time, where in pictures it should not.
+    pub fn are_for_sensors(&self) -> bool {
+        self.2
     }
 
     /// All knobs whose names begin so, with their values.
@@ -510,7 +550,7 @@ mod tests {
         settings.set("sky.rays", "9999", "--set").unwrap();
         assert_eq!(settings.clone().at_sensors().integer("sky.rays"), 2500);
         settings.set("sky.visibility", "cuboid", "--set").unwrap();
-        assert_eq!(settings.clone().at_sensors(), settings);
+        assert_eq!(settings.clone().at_sensors().0, settings.0);
     }
 
     #[test]

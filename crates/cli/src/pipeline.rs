@@ -184,7 +184,8 @@ impl Pipeline {
             if open > 1e-5 {
                 let at = DVec2::new(f64::from(first) + column as f64 + 0.5, f64::from(row) + 0.5);
                 let ray = self.view.ray(at);
-                *pixel += around.way(&ray, Path::EYE).bring(around.background(&ray, Path::EYE)) * open;
+                let path = Path { spread: self.spread(), ..Path::EYE };
+                *pixel += around.way(&ray, path).bring(around.background(&ray, path)) * open;
             }
         }
     }
@@ -196,6 +197,14 @@ impl Pipeline {
             _ => 0.0,
         };
         Hit { path: Path { spread, ..Path::EYE }, ..*hit }
+    }
+
+    /// By how much the bundle of a pixel widens on its way, per metre.
+    fn spread(&self) -> f32 {
+        match self.view.projection {
+            Projection::Perspective { .. } => self.view.pixel_width(1.0) as f32,
+            Projection::Orthographic { .. } => 0.0,
+        }
     }
 
     /// Looks at the whole picture without shading it: the share of its pixels that need a ray to see what shows

@@ -5,6 +5,7 @@
 mod placed;
 mod seen;
 mod solids;
+mod tree;
 mod values;
 mod water;
 mod waves;
@@ -21,12 +22,10 @@ pub(crate) use seen::{
     CameraTable, Ease, GridTable, KeyTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable,
 };
 pub(crate) use solids::SolidTable;
+pub(crate) use tree::TreeTable;
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
 pub(crate) use water::{PhaseTable, WaterTable};
 pub(crate) use waves::{WaveTable, WindTable};
-
-/// A table whose keys belong to a later version.
-pub(crate) type ReservedTable = BTreeMap<String, serde_json::Value>;
 
 /// A scene of keikan. Lengths in metres, angles in degrees, +Y up, north is −Z unless `[site] north` says otherwise.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -55,6 +54,6 @@ pub(crate) struct SceneFile {
     pub(crate) solid: Vec<SolidTable>,
     /// Bodies of water, by their surface.
     pub(crate) water: Vec<WaterTable>,
-    /// Reserved for trees; ignored with a warning.
-    pub(crate) tree: Vec<ReservedTable>,
+    /// Trees.
+    pub(crate) tree: Vec<TreeTable>,
 }

@@ -13,8 +13,8 @@
 //! # Ok::<(), keikan_scene::Error>(())
 //! ```
 //!
-//! **Leaves out.** What to do with the data: chapters never see this crate. Models' animations and skins,
-//! and trees (a warning says so); what faces a set operation of solids has. Which models and knobs exist: names pass through as texts.
+//! **Leaves out.** What to do with the data: chapters never see this crate. Models' animations and skins
+//! (a warning says so); what faces a set operation of solids has. Which models and knobs exist: names pass through as texts.
 //!
 //! **Where it is wrong.** UTC is taken for UT1 (the sun up to 0.004° off) and ΔT is an estimate; refraction
 //! is that of the standard atmosphere. Lamps are points but for rectangles and spheres, which are
@@ -35,7 +35,9 @@ mod regular_file;
 mod scene;
 pub mod sky_table;
 mod solid;
+pub mod species_folder;
 mod sun;
+mod tree;
 pub mod triangulate;
 mod water;
 mod waves;
@@ -50,6 +52,7 @@ pub use scene::*;
 pub use sky_table::SkyTable;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
+pub use tree::{PicturedTree, PlacedTree, TreePicture, TreeSpecies, Trees};
 pub use water::{MeasuredWater, Water, WaterPhase, WaterQuality};
 pub use waves::{SurfaceWaves, Wave, Wind};
 pub use weather::Weather;

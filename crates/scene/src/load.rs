@@ -19,6 +19,7 @@ mod recentre;
 mod settings;
 mod site;
 mod solids;
+mod trees;
 mod waters;
 mod waves;
 
@@ -26,7 +27,7 @@ use std::path::Path;
 
 use crate::document::{Document, Spot};
 use crate::file::SceneFile;
-use crate::{Error, Scene, Sky, Warning, regular_file};
+use crate::{Error, Scene, Sky, regular_file};
 use draft::Draft;
 pub(crate) use placement::look_along;
 pub use site::moment;
@@ -81,7 +82,6 @@ pub fn parse(toml_text: &str, folder: &Path, path_for_messages: &Path) -> Result
     let mut draft = Draft::default();
     site::daylight(&root, &file, &mut draft)?;
     draft.settings = settings::settings(&root, &file)?;
-    reserved(&root, &file, &mut draft.warnings);
     place(&root, &file, &mut draft)?;
     Ok(draft.finish(&path_for_messages.display().to_string()))
 }
@@ -131,6 +131,12 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     for (i, table) in file.water.iter().enumerate() {
         draft.waters.push(waters::water(&root.key("water").index(i), i + 1, table, (&claims, &draft.site))?);
     }
+    let mut left = trees::MOST_TREES;
+    for (i, table) in file.tree.iter().enumerate() {
+        let trees = trees::trees(&root.key("tree").index(i), table, left)?;
+        left -= trees.placed.len();
+        draft.trees.push(trees);
+    }
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {
         let sensor = eyes::sensor(&root.key("sensor").index(i), i + 1, table, left)?;
@@ -138,14 +144,6 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
         draft.sensors.push(sensor);
     }
     Ok(())
-}
-
-/// Tables of later versions are named, not silently dropped.
-fn reserved(root: &Spot<'_>, file: &SceneFile, warnings: &mut Vec<Warning>) {
-    if !file.tree.is_empty() {
-        let what = format!("planned by a later version; ignored ({} tables)", file.tree.len());
-        warnings.push(root.key("tree").index(0).warning(what));
-    }
 }
 
 /// A file that could not be opened, with the place that names it.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, Vec3};
 use light::{Distribution, Geometry, Projection};
 
-use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Warning, Water, Weather};
+use crate::{CameraPath, Daylight, Material, SkyTable, Solid, Trees, Warning, Water, Weather};
 
 /// Everything a picture or a calculation needs, checked.
 #[derive(Clone, Debug)]
@@ -21,6 +21,8 @@ pub struct Scene {
     pub solids: Vec<Solid>,
     /// Bodies of water.
     pub waters: Vec<Water>,
+    /// Trees, by table.
+    pub trees: Vec<Trees>,
     /// By the index that meshes and solids carry.
     pub materials: Vec<Material>,
     /// Lamps that are points; the names of all lamps differ, and none is `sun`, `sky`, `interreflected` or `emission`.

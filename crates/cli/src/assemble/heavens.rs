@@ -204,7 +204,8 @@ fn mapped(scene: &Scene, settings: &Settings, seen: Arc<dyn WholeSky>, maps: &mu
 fn hiding(scene: &Scene, settings: &Settings) -> String {
     let media: Vec<_> = scene.materials.iter().map(scene::Material::medium).collect();
     let stages = ["shadows", "sky.patches", "sky.ground"].map(|name| settings.choice(name));
-    format!("{:?}{media:?}{stages:?}", scene.solids)
+    let trees = settings.of("trees").collect::<Vec<_>>();
+    format!("{:?}{media:?}{stages:?}{:?}{trees:?}", scene.solids, scene.trees)
 }
 
 /// The sky's light, likewise. More may be in it than matters: then something is found anew in vain.

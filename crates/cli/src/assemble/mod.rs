@@ -10,11 +10,12 @@ mod measuring;
 mod open_sky;
 mod qualities;
 mod solids;
+mod trees;
 mod waters;
 
 use std::sync::{Arc, OnceLock};
 
-use light::{Bodies, First, Geometry, Nearest, Occlude, PointSource, Product, See, Shade, View};
+use light::{Bodies, First, Geometry, Nearest, Occlude, PointSource, Product, See, Shade, Traverse, View};
 use raytrace::solid::{Acceleration, Solids};
 use raytrace::{BruteForce, Quality, Rays, Supersample, World};
 use scanline::{Knobs, Localised, Rule, Scanline, Shading};
@@ -37,6 +38,7 @@ pub(crate) use materials::mirrors;
 pub use measuring::{Column, Measuring, Way};
 pub(crate) use open_sky::OpenSky;
 pub(crate) use qualities::{Optics, waters as water_names};
+pub(crate) use trees::names as tree_names;
 
 /// Builds the stages that `plan` names for `scene`.
 ///
@@ -55,6 +57,8 @@ pub struct Standing {
     occlude: Arc<Product>,
     shade: Arc<[Box<dyn Shade>]>,
     waters: Option<Waters>,
+    /// All trees, if there are any.
+    stand: Option<Arc<dyn Traverse>>,
     /// What faces see of each other, once that has been asked for.
     linked: OnceLock<Linked>,
     /// What only building can find to be unusual, in words.
@@ -76,16 +80,18 @@ impl Standing {
         };
         let traced = Traced::of([&seen, &scene.geometry], plan, solids);
         let waters = waters.map(|waters| waters.over_beds(&*traced.dry()));
+        let stand = trees::stand(scene, &plan.settings, &*traced.dry())?;
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
-            _ => traced.occlude(),
+            _ => traced.occlude().into_iter().chain(stand.iter().map(shading)).collect(),
         }));
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
         let flat = waters.as_ref().map(|waters| &**waters.flat());
         let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), &*traced.dry());
         warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
-        Ok(Self { traced, occlude, shade, waters, linked: OnceLock::new(), warnings })
+        let stand = stand.map(|stand| stand as Arc<dyn Traverse>);
+        Ok(Self { traced, occlude, shade, waters, stand, linked: OnceLock::new(), warnings })
     }
 
     /// The scene's primary sources; `maps` have what is known of the sky's light, and keep what becomes known.
@@ -145,7 +151,8 @@ impl Standing {
             shade: Arc::clone(&self.shade),
             sources,
             occlude: Arc::clone(&self.occlude) as Arc<dyn Occlude>,
-            between: self.waters.iter().map(Waters::fill).collect(),
+            // Trees first: water that is seen through them is behind them.
+            between: self.stand.iter().cloned().chain(self.waters.iter().map(Waters::fill)).collect(),
             limits: Limits {
                 depth: settings.integer("ray-depth") as u8,
                 share: settings.number("ray-share") as f32,
@@ -153,6 +160,11 @@ impl Standing {
             },
         })
     }
+}
+
+/// Trees as what stands in light's way.
+fn shading(stand: &Arc<::trees::Stand>) -> Box<dyn Occlude> {
+    Box::new(Arc::clone(stand))
 }
 
 /// Who finds what the eye sees, and how many pixels have needed a ray for it.

@@ -188,6 +188,7 @@ fn rules(settings: &Settings) -> Rules {
             }
         },
         window: settings.integer("water.sky-rays"),
+        still: !settings.are_for_sensors(),
         shafts: settings.integer("water.sky-shafts"),
     }
 }

@@ -9,7 +9,7 @@ use light::{Geometry, Instance, Mesh};
 use super::names::{LAYERS, make_unique};
 use super::{framing, materials, recentre};
 use crate::{
-    AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Warning, Water,
+    AreaLight, Camera, Daylight, Light, Material, Scene, Sensor, Site, Sky, Solid, Sun, Trees, Warning, Water,
 };
 
 /// Beyond this distance from the middle f32 positions are off by more than a millimetre \[m\]: half an ulp of
@@ -23,6 +23,7 @@ pub(crate) struct Draft {
     pub(crate) geometry: Geometry,
     pub(crate) solids: Vec<Solid>,
     pub(crate) waters: Vec<Water>,
+    pub(crate) trees: Vec<Trees>,
     pub(crate) materials: Vec<Material>,
     pub(crate) lights: Vec<Light>,
     pub(crate) area_lights: Vec<AreaLight>,
@@ -93,6 +94,7 @@ impl Draft {
             .chain(self.area_lights.iter().map(|light| light.position))
             .chain(self.sensors.iter().filter_map(|sensor| sensor.points.first().copied()))
             .chain(self.cameras.iter().map(|camera| camera.position))
+            .chain(self.trees.iter().filter_map(|trees| trees.placed.first()).map(|tree| tree.position))
             .collect();
         let origin = recentre::origin(&self.geometry, &self.solids, &others);
         self.geometry
@@ -103,6 +105,8 @@ impl Draft {
             solid.node.placements_mut(&mut |placement| placement.translation -= origin);
         });
         self.waters.iter_mut().for_each(|water| water.place.translation -= origin);
+        let trees = self.trees.iter_mut().flat_map(|trees| &mut trees.placed);
+        trees.for_each(|tree| tree.position -= origin);
         self.lights.iter_mut().for_each(|light| light.position -= origin);
         self.area_lights.iter_mut().for_each(|light| light.position -= origin);
         self.cameras.iter_mut().for_each(|camera| camera.shift(-origin));
@@ -115,6 +119,7 @@ impl Draft {
             geometry: Arc::new(self.geometry),
             solids: self.solids,
             waters: self.waters,
+            trees: self.trees,
             materials: self.materials,
             lights: self.lights,
             area_lights: self.area_lights,
@@ -153,8 +158,10 @@ impl Draft {
         if self.lost > 0 {
             warn(format!("{} placements are flat or beyond 10⁹ m; they are left out", self.lost));
         }
-        if self.geometry.instances.is_empty() && self.solids.is_empty() {
-            warn("there is nothing to see: no model has a face, and there is no solid".to_owned());
+        if self.geometry.instances.is_empty() && self.solids.is_empty() && self.trees.is_empty() {
+            warn(
+                "there is nothing to see: no model has a face, and there is no solid and no tree".to_owned(),
+            );
         }
         let boxes = recentre::all_boxes(&self.geometry, &self.solids);
         let reach = boxes

@@ -161,7 +161,8 @@ impl Lit {
             Source::Around if self.part.has(Part::Through) => {
                 let sky = |toward| self.inner.radiance(&above(at.water, toward));
                 let window = &self.held[i].window;
-                let window = window.get_or_init(|| Window::new(at.water, self.rules.window, sky));
+                let window =
+                    window.get_or_init(|| Window::new(at.water, (self.rules.window, self.rules.still), sky));
                 let irradiance = window.irradiance(at.water, (at.place, at.depth), at.occlude);
                 if !irradiance.is_zero() {
                     receive(Arrival::Field { irradiance });

@@ -35,6 +35,8 @@ pub struct Rules {
     pub along: Along,
     /// Directions through Snell's window in which a surface under water looks for the sky; 0 = nothing hides it (thesis).
     pub window: u32,
+    /// Whether these are the same at every place, for pictures without noise; else the place's seed decides, for sensors that are asked several times.
+    pub still: bool,
     /// The same from all of a view ray, each with the stretches of it that it reaches.
     pub shafts: u32,
 }
@@ -46,6 +48,7 @@ impl Default for Rules {
             scattered: Scattered::Often,
             along: Along::Quadrature(LAMP_TOLERANCE),
             window: 64,
+            still: true,
             shafts: 8,
         }
     }

@@ -30,7 +30,8 @@ struct Look {
 ///
 /// How much there is with nothing in the way a table knows ([`SkyBelow`]). The share of it that arrives is looked for in
 /// directions spread evenly over the window, each weighed with what would arrive from it: where all is seen, or nothing, there is no
-/// error. The place's seed says which of some sets of directions those are, so that what it is asked again and again says how good they are.
+/// error. Where they do not stand still, the place's seed says which of some sets of directions those are: what it is asked again and again
+/// then says how good they are.
 pub(super) struct Window {
     table: SkyBelow,
     /// Sets of directions.
@@ -39,11 +40,15 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Of a sky of `radiance` by unit vector, looked for in `count` directions.
-    pub(super) fn new(water: &FlatWater, count: u32, radiance: impl Fn(Vec3) -> Spectrum) -> Self {
+    /// Of a sky of `radiance` by unit vector, looked for in `count` directions, `still` or not.
+    pub(super) fn new(
+        water: &FlatWater,
+        (count, still): (u32, bool),
+        radiance: impl Fn(Vec3) -> Spectrum,
+    ) -> Self {
         let coefficient = water.water.loss(Loss::Diffuse);
         let table = SkyBelow::new(&water.surface, coefficient, &radiance);
-        let sets = (LOOKS / count.max(1)).clamp(SETS[0], SETS[1]);
+        let sets = if still { 1 } else { (LOOKS / count.max(1)).clamp(SETS[0], SETS[1]) };
         let set = |i: u32| looks(water.surface.index, count, shift(i, PURPOSE), &radiance);
         Self { table, looks: (0..sets).map(set).collect(), coefficient }
     }

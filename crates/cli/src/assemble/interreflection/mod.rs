@@ -79,11 +79,11 @@ impl Linked {
         let linking = Linking {
             share: settings.number("interreflection.share"),
             rays: settings.integer("interreflection.rays"),
-            closed: sides.sealed && scene.solids.is_empty() && scene.waters.is_empty() && is_opaque(scene),
+            closed: sides.sealed && is_all_faces(scene) && scene.waters.is_empty() && is_opaque(scene),
             ..Linking::default()
         };
-        // Of curved bodies nobody here knows where they are not.
-        let obstacles = scene.solids.is_empty().then(|| Obstacles::new(among.seen));
+        // Of curved bodies and trees nobody here knows where they are not.
+        let obstacles = is_all_faces(scene).then(|| Obstacles::new(among.seen));
         let passages = match &still {
             Some(still) if settings.choice("interreflection.across") == "on" => still.passages(),
             _ => Vec::new(),
@@ -113,6 +113,11 @@ impl Linked {
         let light = Stage { stage, parted: Arc::clone(&self.parted), still: self.still.clone() };
         Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None }
     }
+}
+
+/// Whether faces are all there is.
+fn is_all_faces(scene: &Scene) -> bool {
+    scene.solids.is_empty() && scene.trees.is_empty()
 }
 
 /// Whether no face lets light pass.

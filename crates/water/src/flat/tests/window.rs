@@ -74,7 +74,7 @@ fn the_sky_that_is_hidden_in_part_is_what_its_directions_add_up_to() {
     for (count, stated) in
         [(32, [0.03, 0.075]), (64, [0.024, 0.085]), (256, [0.0075, 0.02]), (1024, [0.005, 0.012])]
     {
-        let rules = Rules { window: count, ..Rules::default() };
+        let rules = Rules { window: count, still: false, ..Rules::default() };
         let lit = Lit::new(Box::new(Sky(clear)), Source::Around, Arc::clone(&waters), rules);
         let (mut squares, mut worst) = (0.0, 0.0f64);
         for (roof, place, truth, open) in &truths {
@@ -187,7 +187,7 @@ fn what_places_of_many_seeds_find_says_how_good_it_is() {
     // Half of the sky is hidden: answers by seeds differ by as much as they are off, and their mean is nearer.
     let waters = sea(Water::named("pool").unwrap());
     let roof = Board { y: 2.0, low: [-1.0, -40.0], high: [40.0, 40.0] };
-    let rules = Rules { window: 64, ..Rules::default() };
+    let rules = Rules { window: 64, still: false, ..Rules::default() };
     let lit = Lit::new(Box::new(Sky(clear)), Source::Around, Arc::clone(&waters), rules);
     let place = |seed| Place { position: Vec3::new(-1.0, -1.5, 0.0), error: 1e-6, normal: Vec3::Y, seed };
     let truth = by_directions(&waters[0], clear, &place(0), &roof, 96);
