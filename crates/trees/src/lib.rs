@@ -5,7 +5,7 @@
 //! that fade by the angle ([`Setting`]); leaves that face as the crown does, more or less, fixed by seeds, lit by
 //! sun, lamps and sky and shining through ([`Shading`]). Pictures, outline and leaves are a [`Species`], made from any tree mesh
 //! ([`bake`]), for instance one grown from a few numbers ([`grow`]), or put together by hand ([`Description`]). A tree more is 24 bytes and its share of a hierarchy,
-//! 40 to 48 in all. [`reference`](mod@reference) answers for the mesh itself, to measure the difference.
+//! 40 to 50 in all. [`reference`](mod@reference) answers for the mesh itself, to measure the difference.
 //!
 //! **Leaves out.** Files; wind; seasons; light that leaves scatter to each other and to the ground; the sun's disc, except by as
 //! many rays as the source sends; flowers and gloss.
