@@ -16,7 +16,7 @@
 //! dense round crown seen from the level is up to two fifths too bright; in between, luminance is within a sixth. Silhouettes are those of one view,
 //! all around: the share that is hidden is within a tenth of the mesh's, a thin column seen from straight above a sixth too much; alpha of single pixels is off by
 //! 0.07 to 0.24 (root mean square). The sun's light that is taken from the ground is within a tenth, the sky's within a
-//! sixth. Three planes are within 0.03 of four, two within 0.1, none leaves half of it at 60° and nothing from above. Nearer than a tree's own height, above
+//! sixth. Three planes are within 0.03 of four, two within 0.1; without any, a fifth to half is left at 60° and nothing from above. Nearer than a tree's own height, above
 //! all from below, horizontal planes show as veils at the crown's border, and from within its crown a tree is flat.
 //! Planes for light are set by each ray, so that the way back is as dark: lamps among trees set
 //! slightly different planes over a shadow. Extended light is asked for once per tree and ray. A vertical plane turns at once where the eye passes over its
