@@ -5,7 +5,7 @@ use light::Spectrum;
 
 use crate::bake::TRANSMITTANCE;
 use crate::envelope::Envelope;
-use crate::region::random;
+use crate::region::{patch, random};
 use crate::sheet::Sheet;
 use crate::species::{Description, Leaf, Slice, Species, SpeciesError};
 
@@ -36,6 +36,9 @@ pub struct Photo {
 /// Alpha from which on a texel belongs to the tree.
 const THERE: u8 = 96;
 
+/// Length of the pieces that level pictures are made up of, as a share of the side view's breadth.
+const PIECE: f32 = 0.12;
+
 /// Texels along a side of a level picture, at most.
 const LEVEL: usize = 512;
 
@@ -43,8 +46,8 @@ const LEVEL: usize = 512;
 const BINS: usize = 24;
 
 /// A species from a side view and, where there is one, a view from above (its middle on the axis, as wide as the crown); else
-/// the horizontal planes are made up from the side view: at each place a texel of the row around the plane's height that lies
-/// as far from the axis. The axis goes through the middle of what the lowest rows show; all that is green counts as leaves.
+/// the horizontal planes are made up of pieces of the side view from around the plane's height, as far from the axis, turned
+/// anyhow. The axis goes through the middle of what the lowest rows show; all that is green counts as leaves.
 ///
 /// Outline, density and size are fitted to the alpha; leaves lean to the sky as broad leaves mostly do.
 pub fn from_photo(side: Picture, top: Option<Picture>, photo: &Photo) -> Result<Species, SpeciesError> {
@@ -81,7 +84,7 @@ pub fn from_photo(side: Picture, top: Option<Picture>, photo: &Photo) -> Result<
             lean: 1.0,
         },
         extinction: None,
-        // As the grown broadleaf trees have.
+        // Baked trees of the three broadleaf forms have 1.4 to 1.9.
         shelter: 1.5,
         seed: photo.seed,
     })
@@ -175,20 +178,25 @@ impl CutOut {
         let size = self.columns.min(LEVEL);
         let (half, step) = (0.5 * self.columns as f32, self.columns as f32 / size as f32);
         let row = self.rows as f32 - height;
-        // Rows from a tenth of the tree above to a tenth below: which, a patch of leaves decides.
+        // Rows from a tenth of the tree above to a tenth below.
         let spread = 0.1 * self.rows as f32;
-        let patch = (size / 24).max(2);
+        let piece = PIECE * self.columns as f32;
         let texel = |i: usize| {
             let at = Vec2::new((i % size) as f32 + 0.5, (i / size) as f32 + 0.5) * step - half;
-            if at.length() >= radius {
+            let (number, way) = patch(at, piece, seed);
+            let middle = (at - way).length();
+            if middle >= radius {
                 return [0; 4];
             }
-            let number = seed ^ (((i / size / patch) << 12) + (i % size) / patch) as u32;
-            let y = row + (2.0 * random(number, 0) - 1.0) * spread + (at.y % patch as f32);
-            let hand = if random(number, 1) < 0.5 { -1.0 } else { 1.0 };
-            let x = half + hand * at.length();
-            let y = (y.max(0.0) as usize).min(self.rows - 1);
-            let found = self.row(y)[(x.max(0.0) as usize).min(self.columns - 1)];
+            let hand = if random(number, 5) < 0.5 { -1.0 } else { 1.0 };
+            let from = Vec2::new(half + hand * middle, row + (2.0 * random(number, 6) - 1.0) * spread);
+            let from = from + Vec2::from_angle(std::f32::consts::TAU * random(number, 7)).rotate(way);
+            let inside =
+                from.cmpge(Vec2::ZERO).all() && from.x < self.columns as f32 && from.y < self.rows as f32;
+            if !inside {
+                return [0; 4];
+            }
+            let found = self.row(from.y as usize)[from.x as usize];
             if leafy(found) { found } else { [0; 4] }
         };
         let texels: Vec<[u8; 4]> = (0..size * size).map(texel).collect();

@@ -24,10 +24,15 @@ pub(crate) fn random(seed: u32, purpose: u32) -> f32 {
 /// One ellipse lies in each square of a grid, anywhere and turned anyhow; a point belongs to the one it is nearest to, as
 /// measured in that one's own axes. Squares have an ellipse's area, π size²/(4 · 2).
 pub(crate) fn region(at: Vec2, size: f32, seed: u32) -> u32 {
+    patch(at, size, seed).0
+}
+
+/// The same with the way to the point from the middle of its ellipse \[m\].
+pub(crate) fn patch(at: Vec2, size: f32, seed: u32) -> (u32, Vec2) {
     let square = size * (PI / (4.0 * SLENDER)).sqrt();
     let at = at / square;
     let cell = at.floor();
-    let mut nearest = (f32::INFINITY, seed);
+    let mut nearest = (f32::INFINITY, seed, Vec2::ZERO);
     for (dy, dx) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dy, dx))) {
         let other = cell + Vec2::new(dx as f32, dy as f32);
         let number = scramble(
@@ -40,10 +45,10 @@ pub(crate) fn region(at: Vec2, size: f32, seed: u32) -> u32 {
         let (u, v) = (way.dot(along), way.perp_dot(along) * SLENDER);
         let distance = u * u + v * v;
         if distance < nearest.0 {
-            nearest = (distance, number);
+            nearest = (distance, number, way * square);
         }
     }
-    nearest.1
+    (nearest.1, nearest.2)
 }
 
 /// Unit normal of region `number` for scatter `a`, x outwards (thesis eq. 5.5 to 5.7):

@@ -154,6 +154,22 @@ proptest! {
         prop_assert!(way.added.0.iter().all(|band| *band >= 0.0));
     }
 
+    /// Of a beam, a leaf scatters no more than it catches: E/π at most towards any eye.
+    #[test]
+    fn no_leaf_is_brighter_than_white_paper(
+        from in prop::array::uniform3(-30.0f32..30.0), sun in prop::array::uniform3(-1.0f32..1.0), which in 0usize..4,
+        ambient in 0.0f32..1.0, near in any::<bool>(),
+    ) {
+        let Some(toward) = Vec3::from(sun).try_normalize() else { return Ok(()) };
+        let shading = if which == 0 { Shading::Thesis { ambient } } else { Shading::Leaves };
+        let stand = stand(60, 50.0).with(settings()[which], shading);
+        let path = Path { spread: if near { 1e-4 } else { 0.02 }, ..Path::EYE };
+        let way = stand.way(&ray(from, [0.0, 5.0, 0.0]), path, &Around(&Beam(toward), &stand));
+        let white = std::f32::consts::FRAC_1_PI * (Spectrum::ONE - way.transmittance).max();
+        // Sums of a few dozen f32 parts; below the limit of what counts as opaque 1/512 may be missing in the share.
+        prop_assert!(way.added.max() <= white * (1.0 + 50.0 * f32::EPSILON) + 1.0 / 512.0);
+    }
+
     /// Where no stretch is, light arrives whole.
     #[test]
     fn shadows_are_where_stretches_say(
