@@ -1,6 +1,7 @@
 //! The command line.
 
 mod skies;
+mod species;
 mod waters;
 
 use std::path::PathBuf;
@@ -12,6 +13,7 @@ use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
 
 pub use skies::{Place, Projection, Sky, Toward, When};
+pub use species::{BakeModel, FromPhotos, Grow, Pictures, Tree};
 pub use waters::Water;
 
 /// Landscape and lighting simulation: pictures and lux one can trust.
@@ -44,6 +46,9 @@ pub enum Command {
     Sky(Sky),
     /// What a water does to light: colours, 1/e depths, critical angle.
     Water(Water),
+    /// Species of trees: list them, grow them, bake them from models, make them from photographs.
+    #[command(subcommand)]
+    Tree(Tree),
     /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
     Compare(Compare),
     /// Print the JSON Schema of scene files.

@@ -20,7 +20,7 @@ pub enum Error {
         /// Why.
         what: String,
     },
-    /// A picture to be compared could not be read: exit code 1.
+    /// A picture that is given could not be read or used: exit code 1.
     #[error("{path}: {what}")]
     Input {
         /// Which file.

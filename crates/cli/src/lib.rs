@@ -1,6 +1,6 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `tree`, `compare`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
@@ -27,6 +27,7 @@ mod publish;
 pub mod report;
 pub mod shadows;
 mod skies;
+mod species;
 pub mod studio;
 mod waters;
 

@@ -1,8 +1,9 @@
 //! What will be done, with what, and why: plain data between the arguments and the pipeline.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
-use scene::{Camera, Scene};
+use scene::{Camera, Scene, TreeSpecies};
 
 use crate::assemble::mirrors;
 use crate::knobs::{Preset, Settings};
@@ -290,9 +291,10 @@ fn stages(scene: &Scene, settings: &Settings, contents: Contents, shadows: &Shad
         Rule::Volumes => stage("occlude", &format!("volumes ({faces})"), shadows.to_string()),
     };
     let mut stages = vec![see, shade, sun, sky, lamps, occlude];
-    let (model, why) = waters(scene, settings);
-    let trees = stage("all three", "", "no trees: the scene has no [[tree]]".to_owned());
-    stages.extend([stage("all three", model, why), between(settings), trees]);
+    let (water, of_water) = waters(scene, settings);
+    let (trees, of_trees) = trees(scene, settings);
+    let whole = |answer, why| stage("all three", answer, why);
+    stages.extend([whole(water, of_water), between(settings), whole(trees, of_trees)]);
     stages
 }
 
@@ -374,6 +376,26 @@ fn waters(scene: &Scene, settings: &Settings) -> (&'static str, String) {
                 _ => "do nothing to light, only to what is seen (water.caustics = off)",
             };
             ("water", format!("{n} in the scene; waves on {wavy}, which {caustics}"))
+        }
+    }
+}
+
+/// What is done about trees, and why.
+fn trees(scene: &Scene, settings: &Settings) -> (&'static str, String) {
+    let count: usize = scene.trees.iter().map(|trees| trees.placed.len()).sum();
+    match (count, settings.choice("trees")) {
+        (0, _) => ("", "no trees: the scene has no [[tree]]".to_owned()),
+        (n, "off") => ("", format!("no trees: trees = off; {n} in the scene")),
+        (n, _) => {
+            let name = |trees: &scene::Trees| match &trees.species {
+                TreeSpecies::Named(name) => name.clone(),
+                TreeSpecies::Pictured(pictured) => pictured.name.clone(),
+            };
+            let species: BTreeSet<String> = scene.trees.iter().map(name).collect();
+            let [planes, fade] = ["trees.planes", "trees.fade"].map(|knob| settings.choice(knob));
+            let what =
+                format!("{n} of {} species; a vertical plane and up to {planes} level ones", species.len());
+            ("turning planes", format!("{what}, which fade by {fade}"))
         }
     }
 }

@@ -38,7 +38,7 @@ pub(crate) use materials::mirrors;
 pub use measuring::{Column, Measuring, Way};
 pub(crate) use open_sky::OpenSky;
 pub(crate) use qualities::{Optics, waters as water_names};
-pub(crate) use trees::names as tree_names;
+pub(crate) use trees::{Made, Worn, baked, from_photos, grown, names as tree_names};
 
 /// Builds the stages that `plan` names for `scene`.
 ///
