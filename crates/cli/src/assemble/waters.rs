@@ -153,7 +153,7 @@ impl Waters {
         let along = |(way, part): (Way, Part)| {
             let light = self.bring(scene, (&source.name, kind), Arc::clone(&inner), part);
             let name = source.name.clone();
-            (Source { name, light, beam: source.beam, point: None }, way)
+            (Source { name, light, beam: source.beam, point: None, among_leaves: None }, way)
         };
         let ways =
             [(Way::Direct, Part::Direct), (Way::Reflected, Part::Reflected), (Way::Through, Part::Through)];

@@ -114,7 +114,7 @@ impl Linked {
             stage = stage.through(Arc::new(still.clone()), still.mirrors()).across(self.passages.clone());
         }
         let light = Stage { stage, parted: Arc::clone(&self.parted), still: self.still.clone() };
-        Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None }
+        Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None, among_leaves: None }
     }
 }
 
