@@ -274,14 +274,6 @@ fn settings_become_texts() {
     assert_eq!(given[4..], [("visibility", "rays"), ("x", "0.5")]);
 }
 
-#[test]
-fn later_chapters_are_named_not_dropped() {
-    let scene = scene(&format!("[[tree]]\nspecies = 'pine'\n{BOX}"));
-    let whats: Vec<_> =
-        scene.warnings.iter().map(|w| (w.place.as_str(), w.what.contains("later version"))).collect();
-    assert_eq!(whats, [("a.toml: line 1, column 1, [[tree]] 1", true)]);
-}
-
 /// 10⁶ m away, corners a millimetre apart stay a millimetre apart, and so do lamps, eyes and sensors.
 #[test]
 fn map_coordinates_keep_millimetres() {

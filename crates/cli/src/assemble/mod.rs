@@ -83,14 +83,17 @@ impl Standing {
         let stand = trees::stand(scene, &plan.settings, &*traced.dry())?;
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
-            _ => traced.occlude().into_iter().chain(stand.iter().map(shading)).collect(),
+            _ => {
+                traced.occlude().into_iter().chain(stand.iter().map(|trees| shading(&trees.stand))).collect()
+            }
         }));
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
         let flat = waters.as_ref().map(|waters| &**waters.flat());
         let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), &*traced.dry());
         warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
-        let stand = stand.map(|stand| stand as Arc<dyn Traverse>);
+        warnings.extend(stand.iter().filter_map(trees::Standing::warning));
+        let stand = stand.map(|trees| trees.stand as Arc<dyn Traverse>);
         Ok(Self { traced, occlude, shade, waters, stand, linked: OnceLock::new(), warnings })
     }
 

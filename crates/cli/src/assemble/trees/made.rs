@@ -15,6 +15,9 @@ use crate::Error;
 use crate::args;
 use crate::output::Piece;
 
+/// Leaves longer than this share of a tree's height are probably pictures of many.
+const CARD: f32 = 0.03;
+
 /// A species that was made, and its figures; lengths in metres.
 #[derive(Clone, Debug, serde::Serialize)]
 pub(crate) struct Made {
@@ -149,7 +152,14 @@ pub(crate) fn baked(args: &args::BakeModel) -> Result<(Made, Vec<Worn>, Vec<Stri
             "{name}: no material counts as leaves (by an alpha, a name with \"leaf\", or a green colour): all of it is wood"
         ));
     }
-    Ok((made(&name, &mesh, &pictures(&args.pictures))?, worn, warnings))
+    let made = made(&name, &mesh, &pictures(&args.pictures))?;
+    if args.pictures.leaf.is_none() && made.leaf > CARD * made.height {
+        warnings.push(format!(
+            "{name}: by its triangles a leaf is {:.2} m long; if they show whole twigs, state the length with --leaf",
+            made.leaf
+        ));
+    }
+    Ok((made, worn, warnings))
 }
 
 /// A species from photographs, and what was made up.

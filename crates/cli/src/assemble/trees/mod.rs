@@ -26,6 +26,25 @@ const AMBIENT: f32 = 0.3;
 /// Trees that stand on the ground are let fall from this far above the highest thing \[m\].
 const ABOVE: f32 = 1.0;
 
+/// All trees of a scene.
+pub(super) struct Standing {
+    pub(super) stand: Arc<Stand>,
+    /// Trees that are left out, for another of their species stands at the very same place.
+    doubled: usize,
+}
+
+impl Standing {
+    /// What may not be what one expects.
+    pub(super) fn warning(&self) -> Option<String> {
+        (self.doubled > 0).then(|| {
+            format!(
+                "{} trees stand where another of their species does: only the highest is kept",
+                self.doubled
+            )
+        })
+    }
+}
+
 /// All trees of the scene; none without any. `dry` is what they stand on, where they ask for it.
 ///
 /// # Errors
@@ -34,7 +53,7 @@ pub(super) fn stand(
     scene: &Scene,
     settings: &Settings,
     dry: &dyn Nearest,
-) -> Result<Option<Arc<Stand>>, Error> {
+) -> Result<Option<Standing>, Error> {
     if scene.trees.is_empty() || settings.choice("trees") == "off" {
         return Ok(None);
     }
@@ -52,7 +71,8 @@ pub(super) fn stand(
         let kind = kinds.iter().position(|kind| is_same(kind, &trees.species)).unwrap_or_default();
         let usual = trees.height.map_or(species[kind].description().height, |height| height as f32);
         placed.par_extend(trees.placed.par_iter().map(|tree| {
-            let position = tree.position.as_vec3();
+            // −0 + 0 = 0: what is random of a tree follows from where it stands, and these are one place.
+            let position = tree.position.as_vec3() + Vec3::ZERO;
             Placed {
                 species: kind as u32,
                 position: if trees.on_ground { on_ground(position, top, dry) } else { position },
@@ -61,8 +81,19 @@ pub(super) fn stand(
             }
         }));
     }
+    let doubled = keep_highest(&mut placed);
     let stand = Stand::new(species, placed).map_err(|error| Error::Content(format!("[[tree]]: {error}")))?;
-    Ok((!stand.trees().is_empty()).then(|| Arc::new(stand.with(setting(settings), shading(settings)))))
+    let stand = stand.with(setting(settings), shading(settings));
+    Ok((!stand.trees().is_empty()).then(|| Standing { stand: Arc::new(stand), doubled }))
+}
+
+/// Leaves one tree of a species at each place, and says how many went: rays would cross all of them one by one.
+fn keep_highest(placed: &mut Vec<Placed>) -> usize {
+    let place = |tree: &Placed| (tree.species, tree.position.to_array().map(f32::to_bits));
+    placed.par_sort_by(|a, b| place(a).cmp(&place(b)).then(b.height.total_cmp(&a.height)));
+    let before = placed.len();
+    placed.dedup_by(|after, first| place(after) == place(first));
+    before - placed.len()
 }
 
 fn is_same(a: &TreeSpecies, b: &TreeSpecies) -> bool {

@@ -9,8 +9,11 @@ use trees::{Part, TreeMesh};
 /// Triangles of all placements together: each is kept, with its corners, in some 100 bytes.
 const MOST_TRIANGLES: usize = 20_000_000;
 
-/// What lies no higher than this share of the tree's height above its lowest point is its foot.
+/// What begins no higher than this share of the tree's height above its lowest point is its foot.
 const FOOT: f64 = 0.02;
+
+/// Radius about the axis within which the trunk ends, as a share of the tree's height.
+const TRUNK: f64 = 0.04;
 
 /// Names, or parts of them, of materials that are leaves.
 const LEAVES: [&str; 8] = ["leaf", "leaves", "needle", "foliage", "blatt", "blätter", "laub", "nadel"];
@@ -33,29 +36,22 @@ pub(crate) struct Worn {
 
 /// Parts by placement, as high as they are, or `height` metres; and what each material counts as.
 ///
-/// The foot is the middle of the lowest part of the wood (of all, where there is none).
+/// The foot is that of the wood (of all, where there is none).
 ///
 /// # Errors
 /// Nothing with a height, or too much.
 pub(super) fn tree(model: &Model, height: Option<f32>) -> Result<(TreeMesh, Vec<Worn>), String> {
     let counted = |i: &light::Instance| &model.meshes[i.mesh as usize];
-    let triangles: usize = model.instances.iter().map(|instance| counted(instance).triangles.len()).sum();
-    if triangles > MOST_TRIANGLES {
-        return Err(format!("has {triangles} triangles, more than {MOST_TRIANGLES}"));
+    let count: usize = model.instances.iter().map(|instance| counted(instance).triangles.len()).sum();
+    if count > MOST_TRIANGLES {
+        return Err(format!("has {count} triangles, more than {MOST_TRIANGLES}"));
     }
     let worn = worn(model);
     let leafy = |mesh: &Mesh| worn.get(mesh.material as usize).is_some_and(|worn| worn.leaves);
-    let [low, high] = bounds(corners(model, |_| true)).ok_or("has no triangles")?;
-    let (wood, whole) = (bounds(corners(model, |mesh| !leafy(mesh))), [low, high]);
-    let lowest = wood.unwrap_or(whole)[0].y;
-    if high.y - lowest <= 0.0 {
-        return Err("has no height".to_owned());
-    }
-    let near = lowest + FOOT * (high.y - lowest);
-    let foot = corners(model, |mesh| wood.is_none() || !leafy(mesh)).filter(|corner| corner.y <= near);
-    let [a, b] = bounds(foot).unwrap_or(whole);
-    let foot = (0.5 * (a + b)).with_y(lowest);
-    let scale = height.map_or(1.0, |height| f64::from(height) / (high.y - lowest));
+    let high = corners(model, |_| true).map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+    let any_wood = worn.iter().any(|worn| worn.triangles > 0 && !worn.leaves);
+    let foot = foot(model, high, |mesh| !any_wood || !leafy(mesh)).ok_or("has no triangles with a height")?;
+    let scale = height.map_or(1.0, |height| f64::from(height) / (high - foot.y));
     let upright = DAffine3::from_scale(DVec3::splat(scale)) * DAffine3::from_translation(-foot);
     let parts = model.instances.iter().map(|instance| {
         let mesh = counted(instance);
@@ -79,18 +75,49 @@ fn part(mesh: &Mesh, tree_from_mesh: &DAffine3, material: &Material, leaf: bool)
     }
 }
 
-/// Corners of the triangles of those meshes that are asked for, in the model's coordinates \[m\].
-fn corners<'a>(model: &'a Model, of: impl Fn(&Mesh) -> bool + 'a) -> impl Iterator<Item = DVec3> + 'a {
+/// Triangles of those meshes that are asked for, in the model's coordinates \[m\].
+fn triangles<'a>(model: &'a Model, of: impl Fn(&Mesh) -> bool + 'a) -> impl Iterator<Item = [DVec3; 3]> + 'a {
     let meshes = model.instances.iter().map(|placed| (placed, &model.meshes[placed.mesh as usize]));
     meshes.filter(move |(_, mesh)| of(mesh)).flat_map(|(placed, mesh)| {
-        let corners = mesh.triangles.iter().flatten();
-        corners.map(|i| placed.world_from_mesh.transform_point3(mesh.positions[*i as usize].as_dvec3()))
+        let corner = |i: u32| placed.world_from_mesh.transform_point3(mesh.positions[i as usize].as_dvec3());
+        mesh.triangles.iter().map(move |corners| corners.map(corner))
     })
 }
 
-/// Lower and upper corner; none of nothing.
-fn bounds(points: impl Iterator<Item = DVec3>) -> Option<[DVec3; 2]> {
-    points.map(|p| [p, p]).reduce(|[low, high], [p, _]| [low.min(p), high.max(p)])
+fn corners<'a>(model: &'a Model, of: impl Fn(&Mesh) -> bool + 'a) -> impl Iterator<Item = DVec3> + 'a {
+    triangles(model, of).flatten()
+}
+
+/// Where the trunk meets the ground: the middle (median by area, which branches that hang low do not move) of what is lowest,
+/// at the height where it ends below.
+fn foot(model: &Model, high: f64, wood: impl Fn(&Mesh) -> bool) -> Option<DVec3> {
+    let lowest = corners(model, &wood).map(|corner| corner.y).reduce(f64::min)?;
+    let height = high - lowest;
+    if !(height.is_finite() && height > 0.0) {
+        return None;
+    }
+    let mut around: Vec<(DVec3, f64)> = Vec::new();
+    for [a, b, c] in triangles(model, &wood) {
+        if a.min(b).min(c).y <= lowest + FOOT * height {
+            around.push(((a + b + c) / 3.0, (b - a).cross(c - a).length()));
+        }
+    }
+    let axis = [0, 2].map(|axis| median(around.iter().map(|(at, area)| (at[axis], *area)).collect()));
+    let away = |corner: &DVec3| (corner.x - axis[0]).hypot(corner.z - axis[1]);
+    let trunk = corners(model, &wood).filter(|corner| away(corner) < TRUNK * height);
+    let below = trunk.map(|corner| corner.y).reduce(f64::min).unwrap_or(lowest);
+    Some(DVec3::new(axis[0], below, axis[1]))
+}
+
+/// The value below which half of the weight lies; 0 of nothing.
+fn median(mut values: Vec<(f64, f64)>) -> f64 {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut left = 0.5 * values.iter().map(|(_, weight)| weight).sum::<f64>();
+    let found = values.iter().find(|(_, weight)| {
+        left -= weight;
+        left <= 0.0
+    });
+    found.map_or(0.0, |(value, _)| *value)
 }
 
 /// What each material counts as.
