@@ -117,7 +117,7 @@ impl<'a> Through<'a> {
             let Bent { leaving, toward, share, spread, .. } = apparent.bent;
             return a.normal.dot(toward).max(0.0) * tree.projected(b, leaving) * share * spread / PI;
         }
-        let middle = self.from_point(a.centre, a.normal, &b.corners);
+        let middle = self.seen_from(a.centre, a.normal, &b.corners);
         if a.radius == 0.0 || gap > FAR {
             return middle;
         }
@@ -131,7 +131,7 @@ impl<'a> Through<'a> {
             let halves = triangle::halves(from, triangle::apex(from));
             return 0.5 * halves.iter().map(|half| self.rule(half, normal, to, halvings - 1)).sum::<f64>();
         }
-        triangle::three_points(from).iter().map(|&at| self.from_point(at, normal, to)).sum::<f64>() / 3.0
+        triangle::three_points(from).iter().map(|&at| self.seen_from(at, normal, to)).sum::<f64>() / 3.0
     }
 
     /// From an element, by the directions in which the corners appear:
@@ -140,7 +140,7 @@ impl<'a> Through<'a> {
     ///
     /// as radiance over n² is the same along a way, but for what the surface takes. The edges between apparent corners are taken as
     /// straight: neighbours share them, so that none of the light is counted twice or not at all. T is a mean of the second degree.
-    fn from_point(&self, at: DVec3, normal: DVec3, to: &Corners) -> f64 {
+    fn seen_from(&self, at: DVec3, normal: DVec3, to: &Corners) -> f64 {
         let to = &self.sending(to);
         let bent = |point: DVec3| self.bent(point, at);
         let [Some(a), Some(b), Some(c), Some(middle)] = [to[0], to[1], to[2], triangle::centre(to)].map(bent)
