@@ -387,6 +387,12 @@ pub const KNOBS: &[Knob] = &[
         doc: "whether pictures on horizontal planes stay or turn with the vertical one (thesis 5.2.1), which spins where one looks straight down",
     },
     Knob {
+        name: "trees.sky-rays",
+        domain: Domain::Integer(1, 4096),
+        presets: ["4", "8", "32"],
+        doc: "directions in which a crown looks for the sky, once on each side for every tree that a pixel shows; time grows with it",
+    },
+    Knob {
         name: "trees.shading",
         domain: Domain::Choice(&["leaves", "thesis"]),
         presets: ["leaves"; 3],

@@ -26,6 +26,8 @@ pub struct Source {
     pub beam: bool,
     /// Where a source is that casts sharp shadows; none for extended ones.
     pub point: Option<PointSource>,
+    /// The same found with less work, for what fills the space (crowns of trees); none = `light` there as well.
+    pub among_leaves: Option<Box<dyn Illuminate>>,
 }
 
 /// A number that grows while a picture is made.
@@ -141,7 +143,13 @@ impl Pipeline {
             let start = (row - first) as usize * width * lit_by.len();
             let mut looks = Looks::default();
             for (layer, (_, sources)) in lit_by.iter().enumerate() {
-                let around = Around { pipeline: self, sources, known: Known::default(), face: [u32::MAX; 2] };
+                let around = Around {
+                    pipeline: self,
+                    sources,
+                    known: Known::default(),
+                    face: [u32::MAX; 2],
+                    among_leaves: false,
+                };
                 let line = &mut pixels[start + layer * width..][..width];
                 looks.rewind();
                 self.shade_row((row, columns.start), pieces, &around, &mut looks, line, monitor);
@@ -235,13 +243,16 @@ struct Around<'a> {
     known: Known,
     /// Instance and triangle of that hit.
     face: [u32; 2],
+    /// Whether what fills the space asks.
+    among_leaves: bool,
 }
 
 impl Around<'_> {
     /// Asks these sources for what arrives at `place`; of what is known nobody needs to be asked.
     fn ask(&self, sources: impl Iterator<Item = usize>, place: &Place, receive: &mut dyn FnMut(Arrival)) {
         for i in sources {
-            let source = &self.pipeline.sources[i].light;
+            let Source { light, among_leaves, .. } = &self.pipeline.sources[i];
+            let source = among_leaves.as_ref().filter(|_| self.among_leaves).unwrap_or(light);
             let bit = if i < NUMBERED { 1u64 << i } else { 0 };
             if self.known.lit & bit != 0 {
                 source.arrivals_on(self.face, place, &Vacuum, receive);
@@ -273,7 +284,7 @@ impl Around<'_> {
     /// What light loses and gains along a ray: where it passes several things that fill the space, nearly clear each, in any
     /// order; they do not overlap.
     fn way(&self, ray: &Ray, path: Path) -> Way {
-        let around = Self { known: Known::default(), face: [u32::MAX; 2], ..*self };
+        let around = Self { known: Known::default(), face: [u32::MAX; 2], among_leaves: true, ..*self };
         let ways = self.pipeline.between.iter().map(|fill| fill.way(ray, path, &around));
         ways.fold(Way::CLEAR, Way::then)
     }

@@ -45,7 +45,7 @@ fn main() {
     let patches = Arc::new(Patches::new(&geometry, &Inside, &Cut { edge: 0.4, ..Cut::default() }));
     let linking = Linking { closed: true, ..Linking::default() };
     let links = Links::new(&patches, &Between::dry(&Vacuum), &linking);
-    let primary = direct(&patches, &[&lamp], &Vacuum);
+    let primary = direct(&patches, &[&lamp], &Vacuum, 6);
     let source = Source { emitted: &[], direct: &primary };
     let [three, all] =
         [Orders::Count(3), Orders::Until(1e-5)].map(|orders| solve(&patches, &links, &source, orders));

@@ -25,7 +25,8 @@ impl Balance {
     }
 
     /// Finds u and w so that u_i Σ_j F_ij w_j = t_i and w_j Σ_i A_i u_i F_ij = A_j t_j, where t_i = Σ_j F_ij, at most 1, is what patch i
-    /// sees of others: by reciprocity what leaves it arrives in the same share. Across surfaces the same holds of F_ij n_j²/n_i² and A_i n_i².
+    /// sees of others: by reciprocity what leaves it arrives in the same share. Through surfaces the first sum is of F_ij n_j²/n_i², as
+    /// A_i n_i² is what is reciprocal there; of the second that leaves nothing.
     pub(crate) fn of(patches: &Patches, links: &Links, closed: bool) -> Self {
         let count = patches.len();
         let (mut send, mut receive) = (vec![1.0; count], vec![1.0; count]);
@@ -78,7 +79,7 @@ fn received(patches: &Patches, links: &Links, weights: &[f64]) -> Vec<f64> {
     }
     let sum = |patch: usize| {
         let mine = &links.links[links.starts[patch]..links.starts[patch + 1]];
-        mine.iter().map(|link| links.largest(patch, link, patches) * means[link.source as usize]).sum()
+        mine.iter().map(|link| links.taken(patch, link, patches) * means[link.source as usize]).sum()
     };
     (0..patches.len()).into_par_iter().with_min_len(64).map(sum).collect()
 }
@@ -89,9 +90,9 @@ fn sent(patches: &Patches, links: &Links, weights: &[f64]) -> Vec<f64> {
     let part = |mine: std::ops::Range<usize>| {
         let mut sums = vec![0.0; nodes.len()];
         for patch in mine {
-            let flux = links.extent(patches.node(patch)) * weights[patch];
+            let flux = patches.node(patch).area * weights[patch];
             for link in &links.links[links.starts[patch]..links.starts[patch + 1]] {
-                sums[link.source as usize] += flux * links.largest(patch, link, patches);
+                sums[link.source as usize] += flux * links.largest(link);
             }
         }
         sums
@@ -102,7 +103,7 @@ fn sent(patches: &Patches, links: &Links, weights: &[f64]) -> Vec<f64> {
         .into_par_iter()
         .map(|k| part((k * size).min(weights.len())..((k + 1) * size).min(weights.len())))
         .collect();
-    let total = |node: usize| parts.iter().map(|sums| sums[node]).sum::<f64>() / links.extent(&nodes[node]);
+    let total = |node: usize| parts.iter().map(|sums| sums[node]).sum::<f64>() / nodes[node].area;
     let mut sums: Vec<f64> = (0..nodes.len()).map(total).collect();
     for (k, node) in nodes.iter().enumerate() {
         for child in node.children.into_iter().flatten() {

@@ -8,19 +8,36 @@ use crate::Patches;
 use crate::patch::{Patch, place, reach};
 use crate::triangle::{self, Corners};
 
-/// By patch, irradiance by primary light \[W m⁻² nm⁻¹\]: the mean of three points, each of them a place with a seed of its own; where
-/// they differ the patch is halved, and so on, as a lamp near a wall, a shadow's edge or gathered light needs it.
-pub fn direct(patches: &Patches, lights: &[&dyn Illuminate], occlude: &dyn Occlude) -> Vec<Spectrum> {
-    let of = |index: usize| {
-        let patch = patches.patch(index);
-        let lit = Lit { lights, occlude, patch, normal: patch.normal(), reach: reach(&patch.corners) };
-        lit.mean(&patch.corners, light::sampling::scramble(index as u32), MOST_HALVINGS)
+/// By patch, irradiance by primary light \[W m⁻² nm⁻¹\]: the mean of three points, each of them a place with a seed of its own.
+///
+/// Where they differ, and it matters among all patches, the patch is halved, up to `halvings` times, as a lamp near a wall, a shadow's edge or
+/// gathered light needs it. A light that three points have all missed stays missed.
+pub fn direct(
+    patches: &Patches,
+    lights: &[&dyn Illuminate],
+    occlude: &dyn Occlude,
+    halvings: u32,
+) -> Vec<Spectrum> {
+    let all = |of: &(dyn Fn(usize) -> Spectrum + Sync)| -> Vec<Spectrum> {
+        (0..patches.len()).into_par_iter().map(of).collect()
     };
-    (0..patches.len()).into_par_iter().map(of).collect()
+    let mean = |index: usize, halvings: u32, least: f64| {
+        let patch = patches.patch(index);
+        let lit = Lit { lights, occlude, patch, normal: patch.normal(), reach: reach(&patch.corners), least };
+        lit.mean(&patch.corners, light::sampling::scramble(index as u32), halvings)
+    };
+    let first = all(&|index| mean(index, 0, 0.0));
+    if halvings == 0 {
+        return first;
+    }
+    let flux = |(index, mean): (usize, &Spectrum)| f64::from(mean.mean()) * patches.node(index).area;
+    let total: f64 = first.iter().enumerate().map(flux).sum();
+    let least = SLIGHT * total / patches.len().max(1) as f64;
+    all(&|index| mean(index, halvings, least))
 }
 
-/// Pieces of an eighth of a patch's edges.
-const MOST_HALVINGS: u32 = 6;
+/// Differences of flux within a piece that do not matter, over the mean flux of a patch.
+const SLIGHT: f64 = 0.01;
 
 /// Differences within a piece that are left as they are, over its mean. On each side of it errors cancel; three points take
 /// those of the second order.
@@ -33,6 +50,8 @@ struct Lit<'a> {
     patch: Patch,
     normal: DVec3,
     reach: f64,
+    /// Differences of flux within a piece that do not matter.
+    least: f64,
 }
 
 impl Lit<'_> {
@@ -46,7 +65,9 @@ impl Lit<'_> {
             values.iter().copied().fold(f32::INFINITY, f32::min),
             values.iter().copied().fold(0.0, f32::max),
         ];
-        if left == 0 || most - least <= EVEN * mean.mean() {
+        let area = 0.5 * triangle::cross(piece).length();
+        let slight = f64::from(most - least) * area <= self.least;
+        if left == 0 || slight || most - least <= EVEN * mean.mean() {
             return mean;
         }
         let halves = triangle::halves(piece, triangle::apex(piece));

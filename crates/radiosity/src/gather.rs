@@ -34,8 +34,20 @@ pub(crate) struct Gather<'a> {
     pub(crate) seed: u32,
 }
 
-/// Takes a node, F from the receiver to it, and the share that arrives.
-type Receive<'a> = dyn FnMut(u32, f64, Spectrum) + 'a;
+/// What a receiver sees of a node.
+pub(crate) struct Sent {
+    /// The node.
+    pub(crate) source: u32,
+    /// F from the receiver to it.
+    pub(crate) share: f64,
+    /// The share of that which arrives.
+    pub(crate) tint: Spectrum,
+    /// Whether it has passed a surface.
+    pub(crate) bent: bool,
+}
+
+/// Takes what is seen.
+type Receive<'a> = dyn FnMut(Sent) + 'a;
 
 impl Gather<'_> {
     /// Reports all that the receiver sees, each part of the scene once for every way.
@@ -57,8 +69,10 @@ impl Gather<'_> {
     fn look(&self, receiver: &Receiver<'_>, source: u32, way: Way<'_>, receive: &mut Receive<'_>) -> Look {
         let b = &self.patches.tree.nodes[source as usize];
         let seen = match way.by {
-            By::Through(_) if b.part == MIXED => return b.children.map_or(Look::Done, Look::Into),
-            By::Through(through) => self.bent(receiver, b, &through),
+            By::Through(through) => match self.bent(receiver, b, &through) {
+                Ok(seen) => seen,
+                Err(Hidden) => return b.children.map_or(Look::Done, Look::Into),
+            },
             By::Mirrored(mirror) if are_apart(mirror, receiver.node, b) => None,
             _ => self.unbent(receiver.node, b, way.by),
         };
@@ -77,7 +91,7 @@ impl Gather<'_> {
         match children {
             Some(children) if partial && seen.most > 0.25 * self.share => Look::Into(children),
             _ => {
-                receive(source, share, tint);
+                receive(Sent { source, share, tint, bent: matches!(way.by, By::Through(_)) });
                 Look::Done
             }
         }
@@ -94,14 +108,18 @@ impl Gather<'_> {
         Some(Seen { most, gap, how: How::As(image) })
     }
 
-    /// The same of a node behind a surface.
-    fn bent(&self, receiver: &Receiver<'_>, b: &Node, through: &Through<'_>) -> Option<Seen> {
-        if !through.joins([receiver.part, b.part]) {
-            return None;
+    /// The same of a node behind a surface; hidden where its middle says nothing about its parts.
+    fn bent(&self, receiver: &Receiver<'_>, b: &Node, through: &Through<'_>) -> Result<Option<Seen>, Hidden> {
+        if b.part == MIXED {
+            return Err(Hidden);
         }
-        let apparent = through.apparent(receiver.node, b)?;
-        let Sight::Within(most) = apparent.sight(receiver.node, b, through) else { return None };
-        Some(Seen { most, gap: apparent.gap(receiver.node, b), how: How::Bent(apparent) })
+        if !through.joins([receiver.part, b.part]) {
+            return Ok(None);
+        }
+        // The middle of a group may lie beside the water and below its level.
+        let apparent = through.apparent(receiver.node, b).ok_or(Hidden)?;
+        let Sight::Within(most) = apparent.sight(receiver.node, b, through) else { return Ok(None) };
+        Ok(Some(Seen { most, gap: apparent.gap(receiver.node, b), how: How::Bent(apparent) }))
     }
 
     /// F_ij with nothing in the way.
@@ -193,6 +211,9 @@ enum How {
     As(Node),
     Bent(Apparent),
 }
+
+/// The middle of a node does not show.
+struct Hidden;
 
 /// What to do after a look.
 enum Look {

@@ -8,8 +8,7 @@ use rayon::prelude::*;
 use crate::Patches;
 use crate::balance::Balance;
 use crate::between::Between;
-use crate::gather::{Gather, Receiver};
-use crate::tree::Node;
+use crate::gather::{Gather, Receiver, Sent};
 
 /// How exactly light is followed from patch to patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +41,17 @@ pub(crate) struct Link {
     pub(crate) source: u32,
     /// F_ij, with what is in the way.
     pub(crate) share: f32,
-    /// Index into the tints; 0 = all bands alike.
+    /// Index into the tints; 0 = all bands alike. Links through a surface are marked by [`BENT`].
     tint: u32,
+}
+
+/// Marks the tint of a link through a surface.
+const BENT: u32 = 1 << 31;
+
+impl Link {
+    fn tint(&self) -> usize {
+        (self.tint & !BENT) as usize
+    }
 }
 
 /// What every patch sees of all others.
@@ -79,7 +87,7 @@ impl Links {
         let (mut tints, mut links, mut starts) = (vec![Spectrum::ONE], Vec::with_capacity(count), vec![0]);
         for (list, colours) in found {
             links.extend(list.into_iter().map(|link| Link {
-                tint: if link.tint == 0 { 0 } else { link.tint - 1 + tints.len() as u32 },
+                tint: if link.tint() == 0 { link.tint } else { link.tint - 1 + tints.len() as u32 },
                 ..link
             }));
             tints.extend(colours);
@@ -139,7 +147,7 @@ impl Links {
             let mut sum = Spectrum::ZERO;
             for link in &self.links[self.starts[patch]..self.starts[patch + 1]] {
                 let carried = means[link.source as usize] * link.share;
-                sum += if link.tint == 0 { carried } else { carried * self.tints[link.tint as usize] };
+                sum += if link.tint() == 0 { carried } else { carried * self.tints[link.tint()] };
             }
             sum * self.balance.receive[patch]
         };
@@ -153,21 +161,23 @@ impl Links {
         crate::solve::pulled(patches, &balanced)
     }
 
-    /// Of a link of patch `i`, F_ij n_j²/n_i² in its best band.
-    pub(crate) fn largest(&self, i: usize, link: &Link, patches: &Patches) -> f64 {
-        let share = f64::from(link.share) * f64::from(self.tints[link.tint as usize].max());
+    /// Of a link, F_ij in its best band.
+    pub(crate) fn largest(&self, link: &Link) -> f64 {
+        f64::from(link.share) * f64::from(self.tints[link.tint()].max())
+    }
+
+    /// Of a link of patch `i`, F_ij n_j²/n_i² in its best band, or F_ij if it passes no surface: what it takes of a light in balance.
+    pub(crate) fn taken(&self, i: usize, link: &Link, patches: &Patches) -> f64 {
+        if link.tint & BENT == 0 {
+            return self.largest(link);
+        }
         let parts = [patches.parts[i], patches.tree.nodes[link.source as usize].part];
-        if parts[0] == parts[1] { share } else { share * self.square(parts[1]) / self.square(parts[0]) }
+        self.largest(link) * self.square(parts[1]) / self.square(parts[0])
     }
 
     /// n² relative to part 0 of space.
     fn square(&self, part: u32) -> f64 {
         self.squares.get((part as usize).wrapping_sub(1)).copied().unwrap_or(1.0)
-    }
-
-    /// A n² of a node: what it sends out where light is in balance. The factor of mixed nodes, which nothing is linked to, is 1.
-    pub(crate) fn extent(&self, node: &Node) -> f64 {
-        node.area * self.square(node.part)
     }
 }
 
@@ -199,20 +209,21 @@ impl Finder<'_> {
             Gather { patches, between, share: linking.share, rays: linking.rays, seed: linking.seed };
         let node = patches.node(patch);
         let receiver = Receiver { node, name: patches.leaves[patch], error: 0.0, part: node.part };
-        gather.all(&receiver, &mut |source, share, tint| add(&mut found, source, share, tint));
+        gather.all(&receiver, &mut |seen| add(&mut found, &seen));
         self.found.fetch_add(found.0.len(), Ordering::Relaxed);
         found
     }
 }
 
-fn add((links, tints): &mut Found, source: u32, share: f64, tint: Spectrum) {
+fn add((links, tints): &mut Found, &Sent { source, share, tint, bent }: &Sent) {
+    let mark = if bent { BENT } else { 0 };
     if tint.is_zero() {
         return;
     }
     if tint.0.iter().all(|&band| band == tint[0]) {
-        links.push(Link { source, share: share as f32 * tint[0], tint: 0 });
+        links.push(Link { source, share: share as f32 * tint[0], tint: mark });
     } else {
         tints.push(tint);
-        links.push(Link { source, share: share as f32, tint: tints.len() as u32 });
+        links.push(Link { source, share: share as f32, tint: mark | tints.len() as u32 });
     }
 }

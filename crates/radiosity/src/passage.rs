@@ -90,9 +90,17 @@ impl<'a> Through<'a> {
         })
     }
 
+    /// A source without what of it lies on the wrong side: that is brought to the surface.
+    fn sending(&self, corners: &Corners) -> Corners {
+        let (point, normal) = self.passage.plane();
+        let up = if self.down { 1.0 } else { -1.0 };
+        corners.map(|corner| corner - normal * (up * (up * (corner - point).dot(normal)).min(0.0)))
+    }
+
     /// How `b` appears from the middle of `a`; none where no way leads through.
     pub(crate) fn apparent(&self, a: &Node, b: &Node) -> Option<Apparent> {
-        let bent = self.bent(b.centre, a.centre)?;
+        let middle = if b.is_piece { triangle::centre(&self.sending(&b.corners)) } else { b.centre };
+        let bent = self.bent(middle, a.centre)?;
         // dΩ = dA · spread · (n_j/n_i)²: the solid angle that it fills here.
         let distance = (self.grows / bent.spread).sqrt();
         (distance > 0.0 && distance.is_finite()).then_some(Apparent { bent, distance })
@@ -133,6 +141,7 @@ impl<'a> Through<'a> {
     /// as radiance over n² is the same along a way, but for what the surface takes. The edges between apparent corners are taken as
     /// straight: neighbours share them, so that none of the light is counted twice or not at all. T is a mean of the second degree.
     fn from_point(&self, at: DVec3, normal: DVec3, to: &Corners) -> f64 {
+        let to = &self.sending(to);
         let bent = |point: DVec3| self.bent(point, at);
         let [Some(a), Some(b), Some(c), Some(middle)] = [to[0], to[1], to[2], triangle::centre(to)].map(bent)
         else {

@@ -87,8 +87,8 @@ impl Interreflected {
         let part = between.part(point.centre + point.normal * OFF);
         let receiver = Receiver { node: &point, name: place.seed, error: place.error, part };
         let mut sum = Spectrum::ZERO;
-        gather.all(&receiver, &mut |source, share, tint| {
-            sum += self.sent[source as usize] * tint * share as f32;
+        gather.all(&receiver, &mut |seen| {
+            sum += self.sent[seen.source as usize] * seen.tint * seen.share as f32;
         });
         sum
     }

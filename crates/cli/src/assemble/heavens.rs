@@ -74,7 +74,11 @@ pub(super) fn sky(
         "on" => Box::new(mapped(scene, settings, seen, maps)),
         _ => Box::new(seen),
     };
-    Some(Source { name: SKY.to_owned(), light, beam: false, point: None })
+    let among_leaves = (!scene.trees.is_empty()).then(|| -> Box<dyn Illuminate> {
+        let samples = settings.integer("trees.sky-rays");
+        Box::new(Dome::new(&Description { samples, ..description }))
+    });
+    Some(Source { name: SKY.to_owned(), light, beam: false, point: None, among_leaves })
 }
 
 /// Where the sun stands: a sky knows it also when it does not shine, switched off or below the horizon.

@@ -35,12 +35,14 @@ pub(super) fn sources(
         }),
         beam: true,
         point: Some(PointSource::At(light.position)),
+        among_leaves: None,
     }));
     sources.extend(scene.area_lights.iter().map(|lamp| Source {
         name: lamp.name.clone(),
         light: Box::new(area(lamp, settings)),
         beam: true,
         point: None,
+        among_leaves: None,
     }));
     sources
 }
@@ -130,6 +132,7 @@ pub(super) fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
         light: Box::new(light),
         beam: true,
         point,
+        among_leaves: None,
     })
 }
 

@@ -55,9 +55,15 @@ impl Waters {
     pub(super) fn over_beds(self, nearest: &dyn Nearest) -> Self {
         let over = |water: &FlatWater| {
             let depth = |at: DVec2| {
+                if !water.covers(at) {
+                    return Some(0.0);
+                }
                 let from = Vec3::new(at.x as f32, (water.surface.level - BELOW) as f32, at.y as f32);
-                let hit = nearest.nearest(&Ray::new(from, Vec3::NEG_Y))?;
-                Some(f64::from(hit.distance) + BELOW)
+                match nearest.nearest(&Ray::new(from, Vec3::NEG_Y)) {
+                    Some(hit) => Some(f64::from(hit.distance) + BELOW),
+                    // Within a bank that the surface is drawn into.
+                    None => nearest.nearest(&Ray::new(from, Vec3::Y)).filter(|hit| !hit.front).map(|_| 0.0),
+                }
             };
             water.clone().over(Bed::new(water.extent(), PLACES, depth))
         };
@@ -147,7 +153,7 @@ impl Waters {
         let along = |(way, part): (Way, Part)| {
             let light = self.bring(scene, (&source.name, kind), Arc::clone(&inner), part);
             let name = source.name.clone();
-            (Source { name, light, beam: source.beam, point: None }, way)
+            (Source { name, light, beam: source.beam, point: None, among_leaves: None }, way)
         };
         let ways =
             [(Way::Direct, Part::Direct), (Way::Reflected, Part::Reflected), (Way::Through, Part::Through)];

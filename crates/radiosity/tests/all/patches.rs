@@ -87,7 +87,7 @@ fn a_uniform_light_gives_pi_everywhere() {
     let room = Room::furnished();
     let patches = room.patches(1.0, 0.5);
     let sky = Uniform { radiance: Spectrum::ONE };
-    let found = direct(&patches, &[&sky, &sky], &room.boxes);
+    let found = direct(&patches, &[&sky, &sky], &room.boxes, 4);
     assert_eq!(found.len(), patches.len());
     // A mean of three, of two each, in f32.
     let is_two_pi = |e: &Spectrum| (e[0] / (2.0 * std::f32::consts::PI) - 1.0).abs() < 8.0 * f32::EPSILON;

@@ -37,7 +37,9 @@ pub(super) fn raster(tree: &TreeMesh, frame: &Frame, samples: u32, heights: [f32
     let mut buffer = vec![nothing; width * height];
     for part in &tree.parts {
         for corners in &part.mesh.triangles {
-            let Some(face) = face(part, *corners, frame, samples) else { continue };
+            let Some(face) = face(part, *corners, frame, samples).filter(|face| face.reaches(heights)) else {
+                continue;
+            };
             face.fill([width, height], |x, y, weights| {
                 let position = mix(face.positions, weights);
                 if position.y < 0.0 || !(heights[0]..heights[1]).contains(&position.y) {
@@ -94,6 +96,12 @@ fn face(part: &Part, corners: [u32; 3], frame: &Frame, samples: u32) -> Option<F
 }
 
 impl Face {
+    /// Whether some of it lies between two heights.
+    fn reaches(&self, [low, high]: [f32; 2]) -> bool {
+        let heights = self.positions.map(|position| position.y);
+        heights.iter().any(|y| *y >= low) && heights.iter().any(|y| *y < high)
+    }
+
     /// Samples whose centres lie inside, with their barycentric weights.
     fn fill(&self, [width, height]: [usize; 2], mut receive: impl FnMut(usize, usize, [f32; 3])) {
         let [a, b, c] = self.at;

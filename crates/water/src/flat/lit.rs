@@ -96,7 +96,10 @@ impl Lit {
     /// The water that a point is in, and how deep.
     fn under(&self, point: DVec3) -> Option<(usize, f64)> {
         let depths = self.waters.iter().enumerate();
-        depths.filter_map(|(i, water)| Some((i, water.depth(point)?))).find(|(_, depth)| *depth > ON)
+        let depths =
+            depths.filter_map(|(i, water)| Some((i, water.depth(point).filter(|depth| *depth > ON)?)));
+        // Of waters above each other, the one whose surface is nearest.
+        depths.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Whether a point lies in one of the waters.
@@ -286,7 +289,9 @@ impl Illuminate for Lit {
 
 /// Which of the waters a point is in.
 fn holder(waters: &[FlatWater], point: DVec3) -> Option<usize> {
-    waters.iter().position(|water| water.depth(point).is_some_and(|depth| depth > 0.0))
+    let depths = waters.iter().map(|water| water.depth(point).filter(|depth| *depth > 0.0));
+    let depths = depths.enumerate().filter_map(|(i, depth)| Some((i, depth?)));
+    depths.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
 }
 
 /// Whether a lamp lies partly above and partly below a water's surface, by its middle.

@@ -32,6 +32,9 @@ pub(super) const NAME: &str = "interreflected";
 /// Share of all light that may be left when it has gone round often enough: far below what patches leave.
 const LEFT: f64 = 1e-5;
 
+/// How often a patch is halved where its primary light is uneven: to an eighth of its edges.
+const HALVINGS: u32 = 6;
+
 /// Whether interreflected light is asked for.
 pub(super) fn asked(settings: &Settings) -> bool {
     settings.choice("interreflection") == "patches"
@@ -97,7 +100,7 @@ impl Linked {
 
     /// What the patches send each other of the light of `sources`.
     pub(super) fn source(&self, settings: &Settings, sources: &[Source], occlude: &dyn Occlude) -> Source {
-        let direct = primary(&self.parted, &self.patches, sources.iter(), occlude);
+        let direct = primary(&self.parted, &self.patches, sources.iter(), (occlude, HALVINGS));
         let orders = match settings.integer("interreflection.orders") {
             0 => Orders::Until(LEFT),
             count => Orders::Count(count),
@@ -111,7 +114,7 @@ impl Linked {
             stage = stage.through(Arc::new(still.clone()), still.mirrors()).across(self.passages.clone());
         }
         let light = Stage { stage, parted: Arc::clone(&self.parted), still: self.still.clone() };
-        Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None }
+        Source { name: NAME.to_owned(), light: Box::new(light), beam: false, point: None, among_leaves: None }
     }
 }
 
@@ -134,7 +137,7 @@ fn reached(
     sources: &[Source],
 ) -> Sides {
     let stands = |source: &&Source| source.name != SUN && source.name != SKY;
-    let lamps = primary(parted, patches, sources.iter().filter(stands), among.occlude);
+    let lamps = primary(parted, patches, sources.iter().filter(stands), (among.occlude, 0));
     let shines = |(patch, arrives): (radiosity::Patch, &Spectrum)| {
         !arrives.is_zero() || !painted.emitted(&patch).is_zero()
     };
@@ -156,11 +159,11 @@ fn primary<'a>(
     parted: &Parted,
     patches: &Patches,
     sources: impl Iterator<Item = &'a Source>,
-    occlude: &dyn Occlude,
+    (occlude, halvings): (&dyn Occlude, u32),
 ) -> Vec<Spectrum> {
     let lights: Vec<_> = sources.map(|source| OnPieces { light: &*source.light, parted }).collect();
     let lights: Vec<&dyn Illuminate> = lights.iter().map(|light| light as &dyn Illuminate).collect();
-    direct(patches, &lights, occlude)
+    direct(patches, &lights, occlude, halvings)
 }
 
 /// A light that is asked for pieces of faces, and knows the faces.

@@ -27,9 +27,11 @@ impl Still {
         (0..self.0.len()).map(|index| Arc::new(Face(self.clone(), index)) as Arc<dyn Passage>).collect()
     }
 
-    /// The number of the water that a point is in.
+    /// The number of the water that a point is in: of several above each other the one that it is least deep in.
     pub(super) fn holds(&self, point: DVec3) -> Option<usize> {
-        self.0.iter().position(|water| water.depth(point).is_some_and(|depth| depth > 0.0))
+        let depths = self.0.iter().map(|water| water.depth(point).filter(|depth| *depth > 0.0));
+        let depths = depths.enumerate().filter_map(|(i, depth)| Some((i, depth?)));
+        depths.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
     }
 
     /// Whether a straight way crosses a surface.

@@ -15,6 +15,10 @@ const NAMED: [(&str, Form); 4] = [
     ("spruce", Form::Conifer),
 ];
 
+/// Rows of their pictures, and samples along each side of a texel: 3 cm a texel, in a second or so for each species.
+const ROWS: u32 = 384;
+const SAMPLES: u32 = 3;
+
 /// Their height \[m\].
 pub(super) const HEIGHT: f32 = 12.0;
 
@@ -45,7 +49,8 @@ fn named(name: &str, planes: u32) -> Result<Species, Error> {
     };
     let wrong = |what: &str| Error::Content(format!("[[tree]] species = \"{name}\": {what}"));
     let mesh = grow(&Growth::usual(form, HEIGHT, 1)).ok_or_else(|| wrong("does not grow"))?;
-    bake(&mesh, &Bake { planes, ..Bake::default() }).map_err(|error| wrong(&error.to_string()))
+    bake(&mesh, &Bake { planes, rows: ROWS, samples: SAMPLES, ..Bake::default() })
+        .map_err(|error| wrong(&error.to_string()))
 }
 
 /// Of the folder's planes the `most` that are spread most evenly.
