@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use rayon::prelude::*;
 use scene::species_folder;
 
 use crate::Error;
@@ -47,7 +48,8 @@ pub(crate) fn run(args: &args::Tree, json: bool) -> Result<(), Error> {
 }
 
 fn list(json: bool) -> Result<(), Error> {
-    let all = tree_names().map(Made::named).collect::<Result<Vec<_>, _>>()?;
+    let names: Vec<_> = tree_names().collect();
+    let all = names.into_par_iter().map(Made::named).collect::<Result<Vec<_>, _>>()?;
     if json {
         return say(&pretty(&all));
     }

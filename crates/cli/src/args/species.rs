@@ -100,9 +100,9 @@ pub struct Pictures {
     /// Horizontal planes.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub planes: u32,
-    /// Texels over its height.
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=4096))]
-    pub rows: u32,
+    /// Texels over its height. Default: 384 of grown trees, 512 of models.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=4096))]
+    pub rows: Option<u32>,
     /// Length of a leaf, in metres. Default: as usual for the form, or as the model's triangles say.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub leaf: Option<f32>,
@@ -113,6 +113,6 @@ pub struct Pictures {
 
 impl Default for Pictures {
     fn default() -> Self {
-        Self { planes: 4, rows: 512, leaf: None, seed: 1 }
+        Self { planes: 4, rows: None, leaf: None, seed: 1 }
     }
 }

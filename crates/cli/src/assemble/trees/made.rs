@@ -107,7 +107,7 @@ pub(crate) fn grown(args: &args::Grow) -> Result<(Made, Vec<Piece>), Error> {
             args.form
         ))
     })?;
-    let made = made(&args.form, &mesh, &Bake { leaf: None, ..pictures(&args.pictures) })?;
+    let made = made(&args.form, &mesh, &Bake { leaf: None, ..pictures(&args.pictures, species::usual()) })?;
     let pieces = mesh.parts.into_iter().map(|part| Piece {
         name: if part.leaf { "leaves" } else { "wood" },
         mesh: Mesh { material: 0, ..part.mesh },
@@ -128,8 +128,9 @@ fn growth(form: Form, args: &args::Grow) -> Growth {
     }
 }
 
-fn pictures(args: &args::Pictures) -> Bake {
-    Bake { rows: args.rows, planes: args.planes, leaf: args.leaf, seed: args.seed, ..Bake::default() }
+fn pictures(args: &args::Pictures, usual: Bake) -> Bake {
+    let rows = args.rows.unwrap_or(usual.rows);
+    Bake { rows, planes: args.planes, leaf: args.leaf, seed: args.seed, ..usual }
 }
 
 fn made(name: &str, mesh: &TreeMesh, how: &Bake) -> Result<Made, Error> {
@@ -152,7 +153,7 @@ pub(crate) fn baked(args: &args::BakeModel) -> Result<(Made, Vec<Worn>, Vec<Stri
             "{name}: no material counts as leaves (by an alpha, a name with \"leaf\", or a green colour): all of it is wood"
         ));
     }
-    let made = made(&name, &mesh, &pictures(&args.pictures))?;
+    let made = made(&name, &mesh, &pictures(&args.pictures, Bake::default()))?;
     if args.pictures.leaf.is_none() && made.leaf > CARD * made.height {
         warnings.push(format!(
             "{name}: by its triangles a leaf is {:.2} m long; if they show whole twigs, state the length with --leaf",

@@ -1,6 +1,6 @@
 //! A model of a tree → parts of wood and of leaves, its foot at the origin.
 
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3, swizzles::Vec3Swizzles};
 use light::Mesh;
 use scene::Material;
 use scene::gltf::Model;
@@ -102,11 +102,21 @@ fn foot(model: &Model, high: f64, wood: impl Fn(&Mesh) -> bool) -> Option<DVec3>
             around.push(((a + b + c) / 3.0, (b - a).cross(c - a).length()));
         }
     }
-    let axis = [0, 2].map(|axis| median(around.iter().map(|(at, area)| (at[axis], *area)).collect()));
-    let away = |corner: &DVec3| (corner.x - axis[0]).hypot(corner.z - axis[1]);
-    let trunk = corners(model, &wood).filter(|corner| away(corner) < TRUNK * height);
+    let middle = |of: &[(DVec3, f64)]| {
+        DVec2::from([0, 2].map(|axis| median(of.iter().map(|(at, area)| (at[axis], *area)).collect())))
+    };
+    let mut axis = middle(&around);
+    // Closer and closer to the trunk, until only it is left.
+    for reach in [4.0, 2.0, 1.0, 1.0] {
+        let near = |(at, _): &&(DVec3, f64)| at.xz().distance(axis) < reach * TRUNK * height;
+        let near: Vec<_> = around.iter().filter(near).copied().collect();
+        if !near.is_empty() {
+            axis = middle(&near);
+        }
+    }
+    let trunk = corners(model, &wood).filter(|corner| corner.xz().distance(axis) < TRUNK * height);
     let below = trunk.map(|corner| corner.y).reduce(f64::min).unwrap_or(lowest);
-    Some(DVec3::new(axis[0], below, axis[1]))
+    Some(DVec3::new(axis.x, below, axis.y))
 }
 
 /// The value below which half of the weight lies; 0 of nothing.

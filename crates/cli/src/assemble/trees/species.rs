@@ -22,6 +22,11 @@ const SAMPLES: u32 = 3;
 /// Their height \[m\].
 pub(super) const HEIGHT: f32 = 12.0;
 
+/// How grown trees become pictures.
+pub(super) fn usual() -> Bake {
+    Bake { rows: ROWS, samples: SAMPLES, ..Bake::default() }
+}
+
 /// Names of the species that come with the program.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     NAMED.iter().map(|(name, _)| *name)
@@ -49,8 +54,7 @@ fn named(name: &str, planes: u32) -> Result<Species, Error> {
     };
     let wrong = |what: &str| Error::Content(format!("[[tree]] species = \"{name}\": {what}"));
     let mesh = grow(&Growth::usual(form, HEIGHT, 1)).ok_or_else(|| wrong("does not grow"))?;
-    bake(&mesh, &Bake { planes, rows: ROWS, samples: SAMPLES, ..Bake::default() })
-        .map_err(|error| wrong(&error.to_string()))
+    bake(&mesh, &Bake { planes, ..usual() }).map_err(|error| wrong(&error.to_string()))
 }
 
 /// Of the folder's planes the `most` that are spread most evenly.
