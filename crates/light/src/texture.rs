@@ -99,21 +99,31 @@ impl Texture {
 
     /// Alpha alone.
     pub fn alpha(&self, uv: Vec2, width: f32) -> f32 {
-        self.filtered(uv, width)[3]
+        let (fine, share) = self.level(width);
+        let near = self.levels[fine].alpha(uv, self.wrap);
+        if share == 0.0 {
+            return near;
+        }
+        near + share * (self.levels[fine + 1].alpha(uv, self.wrap) - near)
     }
 
     fn filtered(&self, uv: Vec2, width: f32) -> [f32; 4] {
-        let texels = width * self.levels[0].width.max(self.levels[0].height) as f32;
-        let level = if texels > 1.0 { texels.log2() } else { 0.0 };
-        let top = self.levels.len() - 1;
-        let fine = (level as usize).min(top);
-        let share = (level - fine as f32).clamp(0.0, 1.0);
+        let (fine, share) = self.level(width);
         let near = self.levels[fine].bilinear(uv, self.wrap);
-        if share == 0.0 || fine == top {
+        if share == 0.0 {
             return near;
         }
         let far = self.levels[fine + 1].bilinear(uv, self.wrap);
         std::array::from_fn(|i| near[i] + share * (far[i] - near[i]))
+    }
+
+    /// The level for a footprint of `width`, and the share of the next coarser one.
+    fn level(&self, width: f32) -> (usize, f32) {
+        let texels = width * self.levels[0].width.max(self.levels[0].height) as f32;
+        let level = if texels > 1.0 { texels.log2() } else { 0.0 };
+        let top = self.levels.len() - 1;
+        let fine = (level as usize).min(top);
+        (fine, if fine == top { 0.0 } else { (level - fine as f32).clamp(0.0, 1.0) })
     }
 }
 
@@ -148,6 +158,16 @@ impl Level {
             }
         }
         Self { width, height, texels }
+    }
+
+    /// Alpha alone of [`Self::bilinear`].
+    fn alpha(&self, uv: Vec2, wrap: [Wrap; 2]) -> f32 {
+        let (x0, x1, fx) = neighbours(uv.x, self.width, wrap[0]);
+        let (y0, y1, fy) = neighbours(uv.y, self.height, wrap[1]);
+        let texel = |x: u32, y: u32| f32::from(self.texels[y as usize * self.width as usize + x as usize][3]);
+        let (a, b, c, d) = (texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1));
+        let (top, bottom) = (a + fx * (b - a), c + fx * (d - c));
+        (top + fy * (bottom - top)) / 65535.0
     }
 
     fn bilinear(&self, uv: Vec2, wrap: [Wrap; 2]) -> [f32; 4] {

@@ -7,6 +7,9 @@ use crate::hierarchy::{self, Probe};
 use crate::planes::{Aim, Planes};
 use crate::stand::Stand;
 
+/// How a bundle widens that goes to the sky \[rad\]: half the sun's disc, in which its penumbra lies and which no direction of the sky resolves.
+const PENUMBRA: f32 = 0.0047;
+
 /// Less than this counts as nothing.
 const DARK: f64 = 1e-5;
 
@@ -30,7 +33,12 @@ impl Stand {
         if ends_inside || species.holds(line.0) {
             return species.through_crown(line.0, line.1, reach);
         }
-        Planes::new(species, placed, Aim::Along(line.1), self.setting).transmittance(species, line, reach)
+        let spread = if reach.is_finite() { 0.0 } else { PENUMBRA };
+        Planes::new(species, placed, Aim::Along(line.1), self.setting).transmittance(
+            species,
+            line,
+            (reach, spread),
+        )
     }
 }
 
