@@ -1,6 +1,6 @@
 //! Light that passes a flat surface between patches above and below it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec3};
@@ -129,15 +129,19 @@ fn patches(geometry: &Geometry, edge: f64, reflectance: f32) -> Arc<Patches> {
     Arc::new(Patches::new(geometry, &Inside(reflectance), &Cut { edge, ..Cut::default() }))
 }
 
-fn surfaces() -> ([Arc<dyn Mirror>; 1], [Arc<dyn Passage>; 1]) {
-    ([Arc::new(Water)], [Arc::new(Water)])
+fn mirrors() -> [Arc<dyn Mirror>; 1] {
+    [Arc::new(Water)]
+}
+
+fn passages() -> [Arc<dyn Passage>; 1] {
+    [Arc::new(Water)]
 }
 
 #[test]
 fn patches_see_nothing_but_patches() {
     let geometry = room();
     let patches = patches(&geometry, 1.1, 0.5);
-    let (mirrors, passages) = surfaces();
+    let (mirrors, passages) = (mirrors(), passages());
     let between = Between { mirrors: &mirrors, passages: &passages, ..Between::dry(&Still) };
     let links = Links::new(&patches, &between, &Linking { share: 0.02, rays: 8, ..Linking::default() });
     let seen = links.closure(&patches);
@@ -154,7 +158,7 @@ fn a_furnace_with_water_in_it() {
     let geometry = room();
     let (emits, rho) = (0.4, 0.6);
     let patches = patches(&geometry, 0.8, rho);
-    let (mirrors, passages) = surfaces();
+    let (mirrors, passages) = (mirrors(), passages());
     let between = Between { mirrors: &mirrors, passages: &passages, ..Between::dry(&Still) };
     let linking = Linking { share: 0.02, rays: 8, ..Linking::default() };
     let links = Links::new(&patches, &between, &linking);
@@ -247,7 +251,7 @@ proptest! {
 
         let geometry = room();
         let patches = patches(&geometry, 1.1, 0.0);
-        let (_, passages) = surfaces();
+        let passages = passages();
         let linking = Linking { share: 0.02, ..Linking::default() };
         let links = Links::new(&patches, &Between::dry(&Still), &linking);
         let emitted: Vec<_> =
