@@ -65,8 +65,10 @@ pub struct Setting {
 pub(crate) enum Aim {
     /// An eye at a point.
     Eye(Vec3),
-    /// Parallel rays along a unit vector: a light's, or an orthographic eye's. Both senses of it set the same planes.
+    /// Rays along a unit vector between two points, either of which may be the lamp: both senses of it set the same planes.
     Along(Vec3),
+    /// Parallel rays towards a sun, or an orthographic eye, along a unit vector: nothing turns over as it goes round.
+    Toward(Vec3),
 }
 
 /// The planes of a tree.
@@ -108,7 +110,7 @@ impl Planes {
         let middle = Vec3::Y * (0.5 * species.description().height);
         let toward = match aim {
             Aim::Eye(eye) => eye - middle,
-            Aim::Along(direction) => direction,
+            Aim::Along(direction) | Aim::Toward(direction) => direction,
         };
         let level = Vec3::new(toward.x, 0.0, toward.z).try_normalize().unwrap_or(Vec3::Z);
         // The two senses of a direction set the same plane and picture: whatever light does not care about.
@@ -136,7 +138,7 @@ impl Planes {
     fn opacity(&self, normal: Vec3, centre: Vec3) -> f32 {
         let toward = match self.aim {
             Aim::Eye(eye) => (eye - centre).normalize_or(normal),
-            Aim::Along(direction) => direction,
+            Aim::Along(direction) | Aim::Toward(direction) => direction,
         };
         self.fade.opacity(toward.dot(normal).abs(), self.mean)
     }
@@ -178,7 +180,7 @@ impl Planes {
                 continue;
             }
             let opacity = match self.aim {
-                Aim::Along(_) => self.opacities[1],
+                Aim::Along(_) | Aim::Toward(_) => self.opacities[1],
                 Aim::Eye(_) => self.opacity(Vec3::Y, Vec3::Y * slice.height),
             };
             if opacity > 0.0 {
@@ -268,6 +270,17 @@ mod tests {
         assert_eq!([0.0, 1.0].map(|cos| Fade::Density.opacity(cos, 0.75)), [0.0, 1.0]);
         // Thin crowns: the thesis', to the first order of alpha.
         assert!((Fade::Density.opacity(cos, 0.01) - cos).abs() < 0.01);
+    }
+
+    #[test]
+    fn shadows_do_not_turn_over_as_the_sun_goes_round() {
+        let species = Species::new(plain(200)).unwrap();
+        let planes = |z: f32| {
+            let sun = Vec3::new(1.0, 0.6, z).normalize();
+            Planes::new(&species, &HERE, Aim::Toward(sun), Setting::default()).facing
+        };
+        // Due east, from a little north to a little south of it.
+        assert!((planes(1e-3) - planes(-1e-3)).length() < 3e-3);
     }
 
     #[test]

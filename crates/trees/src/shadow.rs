@@ -21,25 +21,40 @@ impl Stand {
     /// between: there the crown is a cloud of leaves (Lambert-Beer in the envelope).
     pub(crate) fn through(&self, tree: u32, segment: &Ray) -> f32 {
         let (species, placed, line, scale) = self.local(tree, segment);
+        let reach = segment.length / scale;
         // Boxes have corners; planes turn in a cylinder.
-        let level = Vec2::new(line.1.x, line.1.z);
-        let aside = Vec2::new(line.0.x, line.0.z).perp_dot(level);
-        let radius = species.description().half_width;
-        if aside * aside > radius * radius * level.length_squared() * 1.0001 {
+        let tree = species.description();
+        if !meets_cylinder(line, reach, [tree.half_width * WIDER, tree.height * WIDER]) {
             return 1.0;
         }
-        let reach = segment.length / scale;
         let ends_inside = reach.is_finite() && species.holds(line.0 + line.1 * reach);
         if ends_inside || species.holds(line.0) {
             return species.through_crown(line.0, line.1, reach);
         }
         let spread = if reach.is_finite() { 0.0 } else { PENUMBRA };
-        Planes::new(species, placed, Aim::Along(line.1), self.setting).transmittance(
-            species,
-            line,
-            (reach, spread),
-        )
+        let aim = if reach.is_finite() { Aim::Along(line.1) } else { Aim::Toward(line.1) };
+        Planes::new(species, placed, aim, self.setting).transmittance(species, line, (reach, spread))
     }
+}
+
+/// Cylinders are taken as so much larger, for roundings.
+const WIDER: f32 = 1.0001;
+
+/// Whether a stretch of a line meets an upright cylinder on the origin, of a radius and a height \[m\].
+fn meets_cylinder((origin, direction): (Vec3, Vec3), reach: f32, [radius, height]: [f32; 2]) -> bool {
+    // Where it is between the ground and the top; NaN of 0/0, along a border, is passed over by min and max.
+    let [a, b] = [(height - height * WIDER - origin.y) / direction.y, (height - origin.y) / direction.y];
+    let (from, to) = (a.min(b).max(0.0), a.max(b).min(reach));
+    // Where it is within the radius.
+    let (at, level) = (Vec2::new(origin.x, origin.z), Vec2::new(direction.x, direction.z));
+    let square = level.length_squared();
+    let room = radius * radius * square - at.perp_dot(level).powi(2);
+    if room < 0.0 || (square == 0.0 && at.length_squared() > radius * radius) {
+        return false;
+    }
+    let (middle, half) =
+        if square > 0.0 { (-at.dot(level) / square, room.sqrt() / square) } else { (0.0, f32::INFINITY) };
+    from.max(middle - half) <= to.min(middle + half) * WIDER
 }
 
 impl Occlude for Stand {
@@ -127,4 +142,34 @@ fn cone(from: DVec3, way: DVec3, lamp: DVec3, radius: f64) -> Option<[f64; 2]> {
     // Beyond the sphere as seen from the lamp, or beside it: the sphere in front of the lamp's half-space towards it.
     let reaches = [from, from + way].iter().any(|p| (*p - lamp).length() + radius > lamp.length());
     (!apart && reaches).then_some([0.0, 1.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planes::Setting;
+    use crate::region::random;
+    use crate::species::tests::plain;
+    use crate::{Placed, Species};
+
+    #[test]
+    fn lines_that_miss_the_cylinder_meet_no_plane() {
+        let species = Species::new(plain(200)).unwrap();
+        let here = Placed { species: 0, position: Vec3::ZERO, height: 10.0, rotation: 0.3 };
+        let size = [species.description().half_width * WIDER, species.description().height * WIDER];
+        let (mut missed, mut shaded) = (0, 0);
+        for i in 0..4000 {
+            let at = |k: u32, low: f32, high: f32| low + (high - low) * random(i, k);
+            let origin = Vec3::new(at(1, -12.0, 12.0), at(2, -3.0, 14.0), at(3, -12.0, 12.0));
+            let direction = Vec3::new(at(4, -1.0, 1.0), at(5, -1.0, 1.0), at(6, -1.0, 1.0)).normalize();
+            let reach = at(7, 0.0, 30.0);
+            let planes = Planes::new(&species, &here, Aim::Toward(direction), Setting::default());
+            let left = planes.transmittance(&species, (origin, direction), (reach, 0.0));
+            let meets = meets_cylinder((origin, direction), reach, size);
+            assert!(meets || left == 1.0, "{origin} {direction} {reach}: {left}");
+            missed += u32::from(!meets);
+            shaded += u32::from(left < 1.0);
+        }
+        assert!(missed > 1000 && shaded > 100, "{missed} {shaded}");
+    }
 }

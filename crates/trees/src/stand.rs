@@ -165,7 +165,7 @@ impl Stand {
     /// Where a ray crosses the planes of one tree.
     fn cross(&self, tree: u32, ray: &Ray, path: &Path, queue: &mut BinaryHeap<Next>) {
         let (species, placed, line, scale) = self.local(tree, ray);
-        let aim = if path.spread > 0.0 { Aim::Eye(line.0) } else { Aim::Along(line.1) };
+        let aim = if path.spread > 0.0 { Aim::Eye(line.0) } else { Aim::Toward(-line.1) };
         let planes = Planes::new(species, placed, aim, self.setting);
         planes.cross(species, line, ray.length / scale, |cross| {
             queue.push(Next { at: cross.t * scale, what: What::Cross(tree, cross, planes.facing) });

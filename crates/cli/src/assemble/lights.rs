@@ -1,6 +1,6 @@
 //! Lights of the scene → sources of the pipeline.
 
-use light::{AreaLight, AreaShape, Bodies, Luminaire, PointSource, Spectrum};
+use light::{AreaLight, AreaShape, Bodies, Illuminate, Luminaire, PointSource, Spectrum};
 use scene::{LightSpectrum, Scene};
 use sky::{Air, Sun, atmosphere};
 
@@ -127,12 +127,15 @@ pub(super) fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     };
     // One ray to the middle of the disc is a point's sharp shadow.
     let point = (light.samples == 1 || sun.diameter == 0.0).then_some(PointSource::Toward(sun.toward));
+    // Leaves lie at depths of their own: one ray each is soft enough.
+    let among_leaves = (!scene.trees.is_empty())
+        .then(|| -> Box<dyn Illuminate> { Box::new(Sun { samples: 1, ..light.clone() }) });
     (risen(sun) && !light.irradiance.is_zero()).then(|| Source {
         name: SUN.to_owned(),
         light: Box::new(light),
         beam: true,
         point,
-        among_leaves: None,
+        among_leaves,
     })
 }
 

@@ -122,7 +122,11 @@ impl Waters {
     pub(super) fn lit(&self, scene: &Scene, settings: &Settings, source: Source) -> Source {
         let Some(kind) = kind(scene, settings, &source) else { return source };
         let light = self.bring(scene, (&source.name, kind), source.light.into(), Part::All);
-        Source { light, point: None, ..source }
+        // Leaves see what water does to the sky; of beams there would be all the maps once more.
+        let around = source.among_leaves.filter(|_| kind == Kind::Around);
+        let among_leaves =
+            around.map(|inner| self.bring(scene, (&source.name, kind), inner.into(), Part::All));
+        Source { light, point: None, among_leaves, ..source }
     }
 
     /// A part of a source's light.

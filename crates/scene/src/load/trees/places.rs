@@ -85,8 +85,6 @@ fn scattered(
     apart: f64,
     (seed, left): (u32, usize),
 ) -> Result<Vec<DVec3>, Error> {
-    let outlines: Vec<&[[f64; 3]]> =
-        std::iter::once(&*polygon.points).chain(polygon.holes.iter().map(Vec::as_slice)).collect();
     let spot_of = spot.key("polygon").key("points");
     if polygon.points.len() < 3 {
         return Err(spot_of.error("encloses no area: at least three corners are needed"));
@@ -104,11 +102,14 @@ fn scattered(
     let level = polygon.points[0][1];
     let mut points = Vec::new();
     for row in 0..rows as u32 {
+        if points.len() > left {
+            break; // an error, which the caller words
+        }
         for column in 0..columns as u32 {
             let bits = shift(scramble(seed ^ scramble(row)) ^ column, 2);
             let [u, v] = bits.map(|bits| (f64::from(bits) / 4_294_967_296.0 - 0.5) * JITTER + 0.5);
             let at = low + DVec2::new(f64::from(column) + u, f64::from(row) + v) * apart;
-            if outlines.iter().filter(|outline| holds(outline, at)).count() % 2 == 1 {
+            if holds(&polygon.points, at) && !polygon.holes.iter().any(|hole| holds(hole, at)) {
                 points.push(DVec3::new(at.x, level, at.y));
             }
         }
