@@ -128,8 +128,8 @@ pub(super) fn sun(scene: &Scene, settings: &Settings) -> Option<Source> {
     // One ray to the middle of the disc is a point's sharp shadow.
     let point = (light.samples == 1 || sun.diameter == 0.0).then_some(PointSource::Toward(sun.toward));
     // Leaves lie at depths of their own: one ray each is soft enough.
-    let among_leaves = (!scene.trees.is_empty())
-        .then(|| -> Box<dyn Illuminate> { Box::new(Sun { samples: 1, ..light.clone() }) });
+    let among_leaves =
+        (!scene.trees.is_empty()).then(|| -> Box<dyn Illuminate> { Box::new(Sun { samples: 1, ..light }) });
     (risen(sun) && !light.irradiance.is_zero()).then(|| Source {
         name: SUN.to_owned(),
         light: Box::new(light),
