@@ -43,7 +43,7 @@ const WIDER: f32 = 1.0001;
 /// Whether a stretch of a line meets an upright cylinder on the origin, of a radius and a height \[m\].
 fn meets_cylinder((origin, direction): (Vec3, Vec3), reach: f32, [radius, height]: [f32; 2]) -> bool {
     // Where it is between the ground and the top; NaN of 0/0, along a border, is passed over by min and max.
-    let [a, b] = [(height - height * WIDER - origin.y) / direction.y, (height - origin.y) / direction.y];
+    let [a, b] = [-(WIDER - 1.0) * height, height].map(|y| (y - origin.y) / direction.y);
     let (from, to) = (a.min(b).max(0.0), a.max(b).min(reach));
     // Where it is within the radius.
     let (at, level) = (Vec2::new(origin.x, origin.z), Vec2::new(direction.x, direction.z));

@@ -154,6 +154,27 @@ proptest! {
         prop_assert!(way.added.0.iter().all(|band| *band >= 0.0));
     }
 
+    /// Leaves that take nothing give back all that falls on them: in a white furnace they cannot be told from it; those that take a part
+    /// give back the rest, neither more nor less.
+    #[test]
+    fn in_a_furnace_white_leaves_vanish(
+        from in prop::array::uniform3(-30.0f32..30.0), to in prop::array::uniform3(-5.0f32..10.0), which in 0usize..4,
+        reflectance in 0.1f32..0.6, transmittance in 0.0f32..0.4,
+    ) {
+        let mut description = plain(200);
+        description.leaf.reflectance = Some(Spectrum::splat(reflectance));
+        description.leaf.transmittance = Spectrum::splat(transmittance);
+        let tree = Placed { species: 0, position: Vec3::ZERO, height: 10.0, rotation: 0.4 };
+        let stand = Stand::new(vec![Species::new(description).unwrap()], vec![tree]).unwrap();
+        let stand = stand.with(settings()[which], Shading::default());
+        let white = Uniform { radiance: Spectrum::ONE };
+        let way = stand.way(&ray(from, to), Path { spread: 0.001, ..Path::EYE }, &Around(&white, &Vacuum));
+        let hidden = 1.0 - way.transmittance[3];
+        // What counts as opaque leaves out up to 1/512; colours of texels are 16-bit codes of a tenth: 2e-4 of them.
+        let truth = (reflectance + transmittance) * hidden;
+        prop_assert!((way.added[3] - truth).abs() <= 1.0 / 512.0 + 1e-3 * truth, "{} {truth}", way.added[3]);
+    }
+
     /// Of a beam, a leaf scatters no more than it catches: E/π at most towards any eye.
     #[test]
     fn no_leaf_is_brighter_than_white_paper(

@@ -92,7 +92,7 @@ impl Standing {
         let flat = waters.as_ref().map(|waters| &**waters.flat());
         let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), &*traced.dry());
         warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
-        warnings.extend(stand.iter().filter_map(trees::Standing::warning));
+        warnings.extend(stand.iter().filter_map(trees::Planted::warning));
         let stand = stand.map(|trees| trees.stand as Arc<dyn Traverse>);
         Ok(Self { traced, occlude, shade, waters, stand, linked: OnceLock::new(), warnings })
     }

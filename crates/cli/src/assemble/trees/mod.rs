@@ -27,13 +27,13 @@ const AMBIENT: f32 = 0.3;
 const ABOVE: f32 = 1.0;
 
 /// All trees of a scene.
-pub(super) struct Standing {
+pub(super) struct Planted {
     pub(super) stand: Arc<Stand>,
     /// Trees that are left out, for another of their species stands at the very same place.
     doubled: usize,
 }
 
-impl Standing {
+impl Planted {
     /// What may not be what one expects.
     pub(super) fn warning(&self) -> Option<String> {
         (self.doubled > 0).then(|| {
@@ -49,11 +49,7 @@ impl Standing {
 ///
 /// # Errors
 /// A species that there is not, with those that there are; pictures or numbers of which no species can be made.
-pub(super) fn stand(
-    scene: &Scene,
-    settings: &Settings,
-    dry: &dyn Nearest,
-) -> Result<Option<Standing>, Error> {
+pub(super) fn stand(scene: &Scene, settings: &Settings, dry: &dyn Nearest) -> Result<Option<Planted>, Error> {
     if scene.trees.is_empty() || settings.choice("trees") == "off" {
         return Ok(None);
     }
@@ -84,7 +80,7 @@ pub(super) fn stand(
     let doubled = keep_highest(&mut placed);
     let stand = Stand::new(species, placed).map_err(|error| Error::Content(format!("[[tree]]: {error}")))?;
     let stand = stand.with(setting(settings), shading(settings));
-    Ok((!stand.trees().is_empty()).then(|| Standing { stand: Arc::new(stand), doubled }))
+    Ok((!stand.trees().is_empty()).then(|| Planted { stand: Arc::new(stand), doubled }))
 }
 
 /// Leaves one tree of a species at each place, and says how many went: rays would cross all of them one by one.
