@@ -228,6 +228,20 @@ enum Triangles {
     Every(Arc<BruteForce>),
 }
 
+impl Triangles {
+    /// What is met first of these and the solids.
+    fn with(&self, solids: Option<&Arc<Solids>>) -> Arc<dyn Nearest> {
+        let triangles: Arc<dyn Nearest> = match self {
+            Self::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
+            Self::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
+        };
+        match solids {
+            Some(solids) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
+            None => triangles,
+        }
+    }
+}
+
 impl Traced {
     /// `accelerate` = none | view | bvh: the cases I and II, III and IV of the thesis' table 2.1.
     ///
@@ -254,26 +268,12 @@ impl Traced {
     }
 
     fn nearest(&self) -> Arc<dyn Nearest> {
-        let triangles: Arc<dyn Nearest> = match &self.eye {
-            Triangles::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
-            Triangles::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
-        };
-        match &self.solids {
-            Some([solids, _]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
-            None => triangles,
-        }
+        self.eye.with(self.solids.as_ref().map(|[solids, _]| solids))
     }
 
     /// What there is without water surfaces.
     fn dry(&self) -> Arc<dyn Nearest> {
-        let triangles: Arc<dyn Nearest> = match &self.shadow {
-            Triangles::Bvh(world) => Arc::clone(world) as Arc<dyn Nearest>,
-            Triangles::Every(every) => Arc::clone(every) as Arc<dyn Nearest>,
-        };
-        match &self.solids {
-            Some([_, solids]) => Arc::new(First(vec![triangles, Arc::clone(solids) as Arc<dyn Nearest>])),
-            None => triangles,
-        }
+        self.shadow.with(self.solids.as_ref().map(|[_, solids]| solids))
     }
 
     /// What light between faces meets first: triangles alone, without water surfaces.
