@@ -138,21 +138,46 @@ impl<'a> Through<'a> {
     ///
     ///   F = (n_i/n_j)² T F_Lambert(apparent triangle)
     ///
-    /// as radiance over n² is the same along a way, but for what the surface takes. The edges between apparent corners are taken as
-    /// straight: neighbours share them, so that none of the light is counted twice or not at all. T is a mean of the second degree.
+    /// as radiance over n² is the same along a way, but for what the surface takes. Apparent edges are bent, most at the rim of Snell's
+    /// window: triangles are halved until each counts as straight ([`STRAIGHT`]). Neighbours share edges, so that none of the light
+    /// is counted twice or not at all. T is a mean of the second degree.
     fn seen_from(&self, at: DVec3, normal: DVec3, to: &Corners) -> f64 {
-        let to = &self.sending(to);
-        let bent = |point: DVec3| self.bent(point, at);
-        let [Some(a), Some(b), Some(c), Some(middle)] = [to[0], to[1], to[2], triangle::centre(to)].map(bent)
-        else {
+        let to = self.sending(to);
+        let [Some(a), Some(b), Some(c)] = to.map(|corner| self.bent(corner, at)) else {
             return 0.0;
         };
-        let directions = [a.toward, b.toward, c.toward];
-        if directions[0].dot(directions[1].cross(directions[2])) >= 0.0 {
+        if a.toward.dot(b.toward.cross(c.toward)) >= 0.0 {
             return 0.0; // seen from behind
         }
-        let passes = (a.share + b.share + c.share + 9.0 * middle.share) / 12.0;
-        self.grows * passes * point_form_factor(DVec3::ZERO, normal, &directions)
+        self.apparent_form_factor((at, normal), &to, &[a, b, c], MOST_HALVINGS)
+    }
+
+    fn apparent_form_factor(
+        &self,
+        (at, normal): (DVec3, DVec3),
+        to: &Corners,
+        bent: &[Bent; 3],
+        halvings: u32,
+    ) -> f64 {
+        // Of an edge alone, so that triangles that share it agree.
+        let apart = |k: usize| {
+            let [a, b] = [&bent[k], &bent[(k + 1) % 3]];
+            (a.toward.distance(b.toward) / STRAIGHT).max((a.share - b.share).abs() / ALIKE)
+        };
+        let widest =
+            if apart(0) >= apart(1).max(apart(2)) { 0 } else { 1 + usize::from(apart(2) > apart(1)) };
+        if halvings > 0 && apart(widest) > 1.0 {
+            let [i, j, k] = [widest, (widest + 1) % 3, (widest + 2) % 3];
+            let middle = to[i].midpoint(to[j]);
+            let Some(halfway) = self.bent(middle, at) else { return 0.0 };
+            let halves = [[to[i], middle, to[k]], [middle, to[j], to[k]]];
+            let ways = [[bent[i], halfway, bent[k]], [halfway, bent[j], bent[k]]];
+            let half = |h: usize| self.apparent_form_factor((at, normal), &halves[h], &ways[h], halvings - 1);
+            return half(0) + half(1);
+        }
+        let Some(middle) = self.bent(triangle::centre(to), at) else { return 0.0 };
+        let passes = (bent.iter().map(|way| way.share).sum::<f64>() + 9.0 * middle.share) / 12.0;
+        self.grows * passes * point_form_factor(DVec3::ZERO, normal, &bent.map(|way| way.toward))
     }
 }
 
@@ -188,3 +213,13 @@ const FAR: f64 = 8.0;
 
 /// Where the middle of a receiver and three points of it differ by no more, the three are taken as right to a tenth of that.
 const EVEN: f64 = 1e-3;
+
+/// Apparent edges up to this wide \[rad\] count as straight: the rim of Snell's window, 0.85 rad about the vertical, bulges by an
+/// eighth of the square over that beyond its chord, 0.006.
+const STRAIGHT: f64 = 0.2;
+
+/// Shares that pass may differ by so much over an edge: at the rim they rise from nothing like a square root.
+const ALIKE: f64 = 0.2;
+
+/// Triangles are halved so often at most, down to a sixteenth of an edge.
+const MOST_HALVINGS: u32 = 8;
