@@ -247,12 +247,15 @@ struct Around<'a> {
     among_leaves: bool,
 }
 
-impl Around<'_> {
+impl<'a> Around<'a> {
+    fn light_of(&self, source: &'a Source) -> &'a dyn Illuminate {
+        &**source.among_leaves.as_ref().filter(|_| self.among_leaves).unwrap_or(&source.light)
+    }
+
     /// Asks these sources for what arrives at `place`; of what is known nobody needs to be asked.
     fn ask(&self, sources: impl Iterator<Item = usize>, place: &Place, receive: &mut dyn FnMut(Arrival)) {
         for i in sources {
-            let Source { light, among_leaves, .. } = &self.pipeline.sources[i];
-            let source = among_leaves.as_ref().filter(|_| self.among_leaves).unwrap_or(light);
+            let source = self.light_of(&self.pipeline.sources[i]);
             let bit = if i < NUMBERED { 1u64 << i } else { 0 };
             if self.known.lit & bit != 0 {
                 source.arrivals_on(self.face, place, &Vacuum, receive);
@@ -307,6 +310,16 @@ impl Surroundings for Around<'_> {
     fn beams(&self, place: &Place, receive: &mut dyn FnMut(Arrival)) {
         let beams = self.sources.iter().copied().filter(|&i| self.pipeline.sources[i].beam);
         self.ask(beams, place, receive);
+    }
+
+    /// Only what fills the space asks, so nothing is known of the place.
+    fn both_sides(&self, place: &Place) -> [Spectrum; 2] {
+        let mut sides = [Spectrum::ZERO; 2];
+        for source in self.sources.iter().map(|&i| &self.pipeline.sources[i]).filter(|source| !source.beam) {
+            let found = self.light_of(source).both_sides(place, &*self.pipeline.occlude);
+            sides.iter_mut().zip(found).for_each(|(side, found)| *side += found);
+        }
+        sides
     }
 
     fn scattered(&self, ray: &Ray) -> Spectrum {

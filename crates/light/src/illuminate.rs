@@ -35,6 +35,14 @@ impl Arrival {
             Self::Field { irradiance } => irradiance,
         }
     }
+
+    /// Irradiance on the place's plane by extended light, 0 of a beam \[W m⁻² nm⁻¹\].
+    pub fn extended(&self) -> Spectrum {
+        match *self {
+            Self::Beam { .. } => Spectrum::ZERO,
+            Self::Field { irradiance } => irradiance,
+        }
+    }
 }
 
 /// What arrives at this place, from where?
@@ -57,6 +65,15 @@ pub trait Illuminate: Send + Sync {
     ) {
         let _ = face;
         self.arrivals(place, occlude, receive);
+    }
+
+    /// Of extended light alone, irradiance on the place's plane and on its other side \[W m⁻² nm⁻¹\]: for leaves, which both light.
+    fn both_sides(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
+        [*place, place.flipped()].map(|place| {
+            let mut sum = Spectrum::ZERO;
+            self.arrivals(&place, occlude, &mut |arrival| sum += arrival.extended());
+            sum
+        })
     }
 
     /// Radiance of the source itself where `ray` leaves the scene unhindered \[W m⁻² sr⁻¹ nm⁻¹\]; 0 for
@@ -95,6 +112,10 @@ impl<T: Illuminate + ?Sized> Illuminate for Arc<T> {
         receive: &mut dyn FnMut(Arrival),
     ) {
         (**self).arrivals_on(face, place, occlude, receive);
+    }
+
+    fn both_sides(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
+        (**self).both_sides(place, occlude)
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {

@@ -19,6 +19,15 @@ pub trait Surroundings {
         });
     }
 
+    /// Of that, what is extended, on the place's plane and on its other side \[W m⁻² nm⁻¹\]: [`crate::Illuminate::both_sides`] of all.
+    fn both_sides(&self, place: &Place) -> [Spectrum; 2] {
+        [*place, place.flipped()].map(|place| {
+            let mut sum = Spectrum::ZERO;
+            self.arrivals(&place, &mut |arrival| sum += arrival.extended());
+            sum
+        })
+    }
+
     /// Radiance that what fills the space scatters into `ray`, of the light of every source, as it arrives at its origin
     /// \[W m⁻² sr⁻¹ nm⁻¹\]: [`crate::Illuminate::scattered`] of all.
     fn scattered(&self, ray: &Ray) -> Spectrum {

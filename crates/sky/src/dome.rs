@@ -10,7 +10,7 @@ use crate::Sky;
 use crate::ground::Surround;
 use crate::open_sky::OpenSky;
 use crate::sampling::{lattice, shift, transmit};
-use crate::sky_cells::SkyCells;
+use crate::sky_cells::{Shares, SkyCells};
 
 /// Keeps the sky's random choices apart from those of other sources.
 const PURPOSE: u32 = 0xD0;
@@ -87,6 +87,8 @@ pub struct Dome {
     samples: u32,
     open: OpenSky,
     cells: SkyCells,
+    /// For places that both sides of matter.
+    all_around: Shares,
 }
 
 impl Dome {
@@ -97,12 +99,8 @@ impl Dome {
         let open = OpenSky::new(sky);
         let around = Surround::new(description, &open);
         let mean = open.horizontal().luminance() * FRAC_1_PI;
-        Self {
-            cells: SkyCells::new(sky, mean, around.ground.luminance()),
-            around,
-            samples: description.samples.max(1),
-            open,
-        }
+        let cells = SkyCells::new(sky, mean, around.ground.luminance());
+        Self { all_around: cells.all_around(), cells, around, samples: description.samples.max(1), open }
     }
 
     /// Radiance at the zenith \[W m⁻² sr⁻¹ nm⁻¹\].
@@ -120,54 +118,91 @@ impl Dome {
         self.open.on_plane(normal) + self.around.ground_irradiance(normal)
     }
 
-    /// Directions around `place` where light comes from: the sky's (0) and the ground's (1), each with what it
-    /// counts among its own.
-    fn directions(&self, place: &Place) -> impl Iterator<Item = (Vec3, usize, Spectrum)> {
+    /// Share of the sky's (0) and of the ground's light (1) that arrives at `place`.
+    fn visible(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
         let offset = shift(place.seed, PURPOSE);
-        let (normal, facing) = (place.normal, self.cells.facing(place.normal));
-        (0..self.samples).filter_map(move |i| {
-            let (direction, sky, per_density) = facing.choose(lattice(i, self.samples, offset))?;
-            let cosine = direction.dot(normal);
-            (cosine > 0.0).then(|| {
-                let weight = sky.unwrap_or(Spectrum::ONE) * (cosine * per_density);
-                (direction, usize::from(sky.is_none()), weight)
-            })
-        })
+        let facing = self.cells.facing(place.normal);
+        let rays = (0..self.samples).filter_map(|i| {
+            let (direction, sky, per_density) =
+                self.cells.choose(&facing, lattice(i, self.samples, offset))?;
+            let cosine = direction.dot(place.normal);
+            let weight = sky.unwrap_or(Spectrum::ONE) * (cosine * per_density);
+            (cosine > 0.0).then(|| (self.around.ray(place, direction), (usize::from(sky.is_none()), weight)))
+        });
+        let mut seen = Seen::default();
+        transmit(occlude, rays, |(part, weight), transmittance| seen.add(part, weight, transmittance));
+        seen.shares()
     }
 
-    /// Share of the sky's and of the ground's light that arrives at `place`.
-    fn visible(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
-        let rays = self
-            .directions(place)
-            .map(|(direction, part, weight)| (self.around.ray(place, direction), (part, weight)));
-        let (mut through, mut open) = ([Spectrum::ZERO; 2], [Spectrum::ZERO; 2]);
-        transmit(occlude, rays, |(part, weight), transmittance| {
-            through[part] += transmittance * weight;
-            open[part] += weight;
+    /// The same for the place's plane and for its other side, of twice as many directions chosen for both together.
+    fn visible_on_both_sides(&self, place: &Place, occlude: &dyn Occlude) -> [[Spectrum; 2]; 2] {
+        let (offset, count, flipped) =
+            (shift(place.seed, PURPOSE), self.samples.saturating_mul(2), place.flipped());
+        let rays = (0..count).filter_map(|i| {
+            let (direction, sky, per_density) =
+                self.cells.choose(&self.all_around, lattice(i, count, offset))?;
+            let cosine = direction.dot(place.normal);
+            let weight = sky.unwrap_or(Spectrum::ONE) * (cosine.abs() * per_density);
+            let from = if cosine < 0.0 { &flipped } else { place };
+            let part = usize::from(sky.is_none());
+            Some((self.around.ray(from, direction), (usize::from(cosine < 0.0), part, weight)))
         });
+        let mut seen = [Seen::default(), Seen::default()];
+        transmit(occlude, rays, |(side, part, weight), transmittance| {
+            seen[side].add(part, weight, transmittance)
+        });
+        seen.map(|seen| seen.shares())
+    }
+
+    fn irradiance_by(&self, normal: Vec3, [sky, ground]: [Spectrum; 2]) -> Spectrum {
+        self.open.on_plane(normal) * sky + self.around.ground_irradiance(normal) * ground
+    }
+}
+
+/// What arrives and what would, of the sky (0) and of the ground (1).
+#[derive(Default)]
+struct Seen {
+    through: [Spectrum; 2],
+    open: [Spectrum; 2],
+}
+
+impl Seen {
+    fn add(&mut self, part: usize, weight: Spectrum, transmittance: Spectrum) {
+        self.through[part] += transmittance * weight;
+        self.open[part] += weight;
+    }
+
+    /// Share of either that arrives.
+    fn shares(&self) -> [Spectrum; 2] {
         // A part so small that no direction met it is taken to be as hidden as the other. Rounding of the two
         // sums must not let more through than there is.
-        let share =
-            |part: usize, band: usize| match [part, 1 - part].map(|k| (through[k][band], open[k][band])) {
-                [(through, open), _] if open > 0.0 => (through / open).min(1.0),
-                [_, (through, open)] if open > 0.0 => (through / open).min(1.0),
-                _ => 0.0,
-            };
+        let share = |part: usize, band: usize| match [part, 1 - part]
+            .map(|k| (self.through[k][band], self.open[k][band]))
+        {
+            [(through, open), _] if open > 0.0 => (through / open).min(1.0),
+            [_, (through, open)] if open > 0.0 => (through / open).min(1.0),
+            _ => 0.0,
+        };
         [0, 1].map(|part| Spectrum(std::array::from_fn(|band| share(part, band))))
     }
 }
 
 impl Illuminate for Dome {
     fn arrivals(&self, place: &Place, occlude: &dyn Occlude, receive: &mut dyn FnMut(Arrival)) {
-        let from_sky = self.open.on_plane(place.normal);
-        if from_sky.is_zero() && self.around.ground.is_zero() {
+        if self.open.on_plane(place.normal).is_zero() && self.around.ground.is_zero() {
             return;
         }
-        let [sky, ground] = self.visible(place, occlude);
-        let irradiance = from_sky * sky + self.around.ground_irradiance(place.normal) * ground;
+        let irradiance = self.irradiance_by(place.normal, self.visible(place, occlude));
         if !irradiance.is_zero() {
             receive(Arrival::Field { irradiance });
         }
+    }
+
+    /// By directions chosen by the sky's light alone, whatever the plane, half of which serve either side: where many leaves ask,
+    /// no table of shares has to be made for each.
+    fn both_sides(&self, place: &Place, occlude: &dyn Occlude) -> [Spectrum; 2] {
+        let [front, back] = self.visible_on_both_sides(place, occlude);
+        [self.irradiance_by(place.normal, front), self.irradiance_by(-place.normal, back)]
     }
 
     fn radiance(&self, ray: &Ray) -> Spectrum {

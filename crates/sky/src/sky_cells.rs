@@ -143,31 +143,54 @@ impl SkyCells {
         (self.ahead * cos + self.side * sin) * (1.0 - height * height).max(0.0).sqrt() + Vec3::Y * height
     }
 
-    /// The choice of directions for the plane of unit `normal`.
-    pub(crate) fn facing(&self, normal: Vec3) -> Facing<'_> {
+    /// Shares for the plane of unit `normal`.
+    pub(crate) fn facing(&self, normal: Vec3) -> Shares {
         let [ahead, side] = [self.ahead.dot(normal), self.side.dot(normal)];
-        let mut sums = [[0.0; COLUMNS]; ROWS];
-        let mut below = [0.0; COLUMNS];
         let level: [f32; COLUMNS] =
             std::array::from_fn(|k| self.azimuth[0][k] * ahead + self.azimuth[1][k] * side);
-        for ((row, power), sum) in self.rows.iter().zip(self.power.iter()).zip(&mut sums) {
-            let (steep, reach) = (row.middle[1] * normal.y, row.reach);
-            for k in 0..COLUMNS {
-                let cos = row.middle[0] * level[k] + steep;
-                // cos⁺ averaged over ±reach: the cosine itself, or (cos + reach)²/(4 reach) where the plane
-                // cuts through the cell.
-                let part = (cos + reach).clamp(0.0, 2.0 * reach);
-                let mean = part * part / (4.0 * reach) + (cos - reach).max(0.0);
-                below[k] += power[k] * mean;
-            }
-            *sum = below;
+        Shares::new(&self.power, |row, k| {
+            let row = &self.rows[row];
+            let (cos, reach) = (row.middle[0] * level[k] + row.middle[1] * normal.y, row.reach);
+            // cos⁺ averaged over ±reach: the cosine itself, or (cos + reach)²/(4 reach) where the plane
+            // cuts through the cell.
+            let part = (cos + reach).clamp(0.0, 2.0 * reach);
+            part * part / (4.0 * reach) + (cos - reach).max(0.0)
+        })
+    }
+
+    /// Shares for what receives alike from everywhere.
+    pub(crate) fn all_around(&self) -> Shares {
+        Shares::new(&self.power, |_, _| 1.0)
+    }
+
+    /// The direction that belongs to a point of the unit square; the sky's radiance there, none for the ground; and the
+    /// inverse of its density, on one scale for all. None where rounding has met a cell without light.
+    ///
+    /// The radiance is that in the middle of a part 0.9° × 1.4° wide: to ask the sky itself for each of many directions took
+    /// longer than their rays. Radiance changes by some per cent within a part, of which the few that an edge crosses are all
+    /// that counts.
+    ///
+    /// First the azimuth, of sky and ground together, then the altitude: upright edges of what hides them are
+    /// straight lines on the square, of which evenly spread points miss one at most.
+    pub(crate) fn choose(&self, shares: &Shares, at: [f32; 2]) -> Option<(Vec3, Option<Spectrum>, f32)> {
+        let (sums, columns) = (&shares.sums, &shares.columns);
+        let target = at[0] * columns[COLUMNS - 1];
+        let column = columns.partition_point(|&sum| sum <= target).min(COLUMNS - 1);
+        let before = if column == 0 { 0.0 } else { columns[column - 1] };
+        let whole = sums[ROWS - 1][column];
+        let up = at[1] * whole;
+        let row = sums.partition_point(|sums| sums[column] <= up).min(ROWS - 1);
+        let below = if row == 0 { 0.0 } else { sums[row - 1][column] };
+        let weight = sums[row][column] - below;
+        if weight <= 0.0 || whole <= 0.0 {
+            return None;
         }
-        let mut total = 0.0;
-        let columns = below.map(|column| {
-            total += column;
-            total
+        let within = [(target - before) / whole, (up - below) / weight].map(|share| share.clamp(0.0, 1.0));
+        let radiance = row.checked_sub(GROUND_ROWS).map(|row| {
+            let [along, up] = within.map(|share| ((share * FINE as f32) as usize).min(FINE - 1));
+            self.radiance[row * COLUMNS + column][up][along]
         });
-        Facing { cells: self, sums, columns }
+        Some((self.direction(row, column, within), radiance, self.rows[row].solid_angle / weight))
     }
 }
 
@@ -178,43 +201,32 @@ fn bearing(columns: f32) -> [f32; 2] {
     [-cos, -sin]
 }
 
-/// Directions for planes of one normal.
-pub(crate) struct Facing<'a> {
-    cells: &'a SkyCells,
+/// By what share directions are chosen.
+#[derive(Clone, Debug)]
+pub(crate) struct Shares {
     /// W of each cell and those below it in its column.
     sums: [[f32; COLUMNS]; ROWS],
     /// W of each column and those before it.
     columns: [f32; COLUMNS],
 }
 
-impl Facing<'_> {
-    /// The direction that belongs to a point of the unit square; the sky's radiance there, none for the ground; and the
-    /// inverse of its density, on one scale for all. None where rounding has met a cell without light.
-    ///
-    /// The radiance is that in the middle of a part 0.9° × 1.4° wide: to ask the sky itself for each of many directions took
-    /// longer than their rays. Radiance changes by some per cent within a part, of which the few that an edge crosses are all
-    /// that counts.
-    ///
-    /// First the azimuth, of sky and ground together, then the altitude: upright edges of what hides them are
-    /// straight lines on the square, of which evenly spread points miss one at most.
-    pub(crate) fn choose(&self, at: [f32; 2]) -> Option<(Vec3, Option<Spectrum>, f32)> {
-        let target = at[0] * self.columns[COLUMNS - 1];
-        let column = self.columns.partition_point(|&sum| sum <= target).min(COLUMNS - 1);
-        let before = if column == 0 { 0.0 } else { self.columns[column - 1] };
-        let whole = self.sums[ROWS - 1][column];
-        let up = at[1] * whole;
-        let row = self.sums.partition_point(|sums| sums[column] <= up).min(ROWS - 1);
-        let below = if row == 0 { 0.0 } else { self.sums[row - 1][column] };
-        let weight = self.sums[row][column] - below;
-        if weight <= 0.0 || whole <= 0.0 {
-            return None;
+impl Shares {
+    /// From W without the cosine, and the cosine by row and column.
+    fn new(power: &[[f32; COLUMNS]; ROWS], cosine: impl Fn(usize, usize) -> f32) -> Self {
+        let mut sums = [[0.0; COLUMNS]; ROWS];
+        let mut below = [0.0; COLUMNS];
+        for (row, sum) in sums.iter_mut().enumerate() {
+            for k in 0..COLUMNS {
+                below[k] += power[row][k] * cosine(row, k);
+            }
+            *sum = below;
         }
-        let within = [(target - before) / whole, (up - below) / weight].map(|share| share.clamp(0.0, 1.0));
-        let radiance = row.checked_sub(GROUND_ROWS).map(|row| {
-            let [along, up] = within.map(|share| ((share * FINE as f32) as usize).min(FINE - 1));
-            self.cells.radiance[row * COLUMNS + column][up][along]
+        let mut total = 0.0;
+        let columns = below.map(|column| {
+            total += column;
+            total
         });
-        Some((self.cells.direction(row, column, within), radiance, self.cells.rows[row].solid_angle / weight))
+        Self { sums, columns }
     }
 }
 
@@ -246,7 +258,7 @@ mod tests {
                 let mut sums = [0.0f64; 2];
                 let points =
                     (0..shifts).flat_map(|seed| (0..count).map(move |i| lattice(i, count, shift(seed, 1))));
-                for (direction, radiance, per_density) in points.filter_map(|at| facing.choose(at)) {
+                for (direction, radiance, per_density) in points.filter_map(|at| cells.choose(&facing, at)) {
                     let luminance = radiance.map_or(1.0, |radiance| radiance.luminance());
                     let part = usize::from(radiance.is_none());
                     sums[part] += f64::from(luminance * direction.dot(normal).max(0.0) * per_density);
@@ -287,7 +299,7 @@ mod tests {
         let cells = SkyCells::new(&standard("clear", 20.0), 1000.0, 500.0);
         let facing = cells.facing(Vec3::NEG_Z);
         for i in 0..4096 {
-            let chosen = facing.choose(lattice(i, 4096, shift(i, 1)));
+            let chosen = cells.choose(&facing, lattice(i, 4096, shift(i, 1)));
             // Within each cell of ground the upper edge is left out, but for rounding.
             assert!(chosen.is_none_or(|(d, sky, _)| if sky.is_some() { d.y >= 0.0 } else { d.y <= 0.0 }));
         }

@@ -208,16 +208,8 @@ impl Fields {
 
     /// Asked for once per tree and ray: extended light is the costly part, and it varies little within a crown.
     pub(crate) fn new(place: &Place, around: &dyn Surroundings) -> Self {
-        let side = |place: &Place| {
-            let mut sum = Spectrum::ZERO;
-            around.arrivals(place, &mut |arrival| {
-                if let Arrival::Field { irradiance } = arrival {
-                    sum += irradiance;
-                }
-            });
-            sum
-        };
-        Self { outer: side(place), inner: side(&place.flipped()) }
+        let [outer, inner] = around.both_sides(place);
+        Self { outer, inner }
     }
 
     /// Irradiance on a plane whose normal has cosine `cos` to the outward one, linear in it: exact where each half of the

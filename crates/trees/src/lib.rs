@@ -39,6 +39,7 @@
 //! ```
 
 mod bake;
+mod cover;
 mod envelope;
 mod grow;
 mod hierarchy;

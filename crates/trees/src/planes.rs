@@ -75,15 +75,13 @@ pub(crate) enum Aim {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     aim: Aim,
-    /// Of the vertical plane and, for parallel rays, of all horizontal ones.
-    opacities: [f32; 2],
-    fade: Fade,
+    setting: Setting,
     /// Mean alpha of the crown.
     mean: f32,
     /// Horizontal unit vector, the vertical plane's normal.
     pub(crate) facing: Vec3,
-    /// Columns of slices' pictures run along this horizontal unit vector (x, z), their rows down along its perpendicular.
-    lying: Vec2,
+    /// How the tree is turned \[rad\].
+    rotation: f32,
     /// +1, or −1 where the side view is mirrored.
     hand: f32,
 }
@@ -116,22 +114,23 @@ impl Planes {
         // The two senses of a direction set the same plane and picture: whatever light does not care about.
         let backward = matches!(aim, Aim::Along(_)) && (level.z < 0.0 || (level.z == 0.0 && level.x < 0.0));
         let facing = if backward { -level } else { level };
-        let turned = match setting.turn {
-            Turn::WithEye => Vec2::new(facing.z, -facing.x),
-            Turn::Fixed => Vec2::X,
-        };
-        let rotation = Vec2::from_angle(placed.rotation);
-        let mut planes = Self {
+        Self {
             aim,
-            opacities: [0.0; 2],
-            fade: setting.fade,
+            setting,
             mean: species.mean_alpha,
             facing,
-            lying: rotation.rotate(turned),
-            hand: if rotation.y < 0.0 { -1.0 } else { 1.0 },
+            rotation: placed.rotation,
+            hand: if placed.rotation < 0.0 { -1.0 } else { 1.0 },
+        }
+    }
+
+    /// Columns of slices' pictures run along this horizontal unit vector (x, z), their rows down along its perpendicular.
+    fn lying(&self) -> Vec2 {
+        let turned = match self.setting.turn {
+            Turn::WithEye => Vec2::new(self.facing.z, -self.facing.x),
+            Turn::Fixed => Vec2::X,
         };
-        planes.opacities = [planes.opacity(facing, middle), planes.opacity(Vec3::Y, middle)];
-        planes
+        Vec2::from_angle(self.rotation).rotate(turned)
     }
 
     /// Opacity of a plane of unit normal `normal` about `centre`.
@@ -140,7 +139,7 @@ impl Planes {
             Aim::Eye(eye) => (eye - centre).normalize_or(normal),
             Aim::Along(direction) | Aim::Toward(direction) => direction,
         };
-        self.fade.opacity(toward.dot(normal).abs(), self.mean)
+        self.setting.fade.opacity(toward.dot(normal).abs(), self.mean)
     }
 
     /// Every crossing of `origin` + t `direction` with a plane that is there, 0 < t < `reach`, in any order.
@@ -161,11 +160,15 @@ impl Planes {
             let point = origin + direction * t;
             let at = Vec2::new((point.x * self.facing.z - point.z * self.facing.x) * self.hand, point.y);
             let uv = Vec2::new(0.5 + at.x / width, 1.0 - at.y / height);
-            let opacity = self.opacities[0];
-            if opacity > 0.0 && within(uv) {
-                receive(Cross { t, slice: None, uv, at, opacity, cos: cos.abs() });
+            if within(uv) {
+                let opacity = self.opacity(self.facing, Vec3::Y * (0.5 * height));
+                if opacity > 0.0 {
+                    receive(Cross { t, slice: None, uv, at, opacity, cos: cos.abs() });
+                }
             }
         }
+        // Found where the first slice is met: most lines meet none. Parallel rays have one opacity for all slices.
+        let mut met: Option<(Vec2, f32)> = None;
         for (i, slice) in tree.slices.iter().enumerate() {
             let t = (slice.height - origin.y) / direction.y;
             if !ahead(t) {
@@ -173,16 +176,15 @@ impl Planes {
             }
             let point = origin + direction * t;
             let level = Vec2::new(point.x, point.z);
-            let at = Vec2::new(level.dot(self.lying), level.dot(self.lying.perp()));
-            let uv = at / width + 0.5;
             // Their corners are beyond what any direction's side view shows.
-            if at.length_squared() >= tree.half_width * tree.half_width {
+            if level.length_squared() >= tree.half_width * tree.half_width {
                 continue;
             }
-            let opacity = match self.aim {
-                Aim::Along(_) | Aim::Toward(_) => self.opacities[1],
-                Aim::Eye(_) => self.opacity(Vec3::Y, Vec3::Y * slice.height),
-            };
+            let here = || self.opacity(Vec3::Y, Vec3::Y * slice.height);
+            let (lying, first) = *met.get_or_insert_with(|| (self.lying(), here()));
+            let opacity = if matches!(self.aim, Aim::Eye(_)) { here() } else { first };
+            let at = Vec2::new(level.dot(lying), level.dot(lying.perp()));
+            let uv = at / width + 0.5;
             if opacity > 0.0 {
                 receive(Cross { t, slice: Some(i as u32), uv, at, opacity, cos: direction.y.abs() });
             }

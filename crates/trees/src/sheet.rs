@@ -4,12 +4,16 @@ use glam::{Vec2, Vec3};
 use light::colour::{decode_srgb, encode_srgb};
 use light::{Texture, Wrap};
 
+use crate::cover::Cover;
+
 /// The picture on a plane of a tree: reflectance and alpha, filtered premultiplied; beyond its edges there is nothing.
 ///
 /// Row 0 is at the top of a side view; in a view from above it is the far edge as one looks from the front.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     texture: Texture,
+    /// Its alpha once more, for shadow rays.
+    cover: Cover,
     /// 255 where a texel shows leaves, 0 where it shows wood, row by row; empty: leaves everywhere.
     leaves: Vec<u8>,
 }
@@ -34,7 +38,8 @@ impl Sheet {
                 ];
             }
         })?;
-        Some(Self { texture, leaves: leaves.to_vec() })
+        let alphas: Vec<u8> = texels.iter().map(|texel| texel[3]).collect();
+        Some(Self { texture, cover: Cover::new(width, &alphas), leaves: leaves.to_vec() })
     }
 
     /// Texels in a row and rows.
@@ -64,7 +69,7 @@ impl Sheet {
     pub fn bytes(&self) -> usize {
         // 8 bytes a texel, a third more for the pyramid.
         let [width, height] = self.size();
-        width as usize * height as usize * 32 / 3 + self.leaves.len()
+        width as usize * height as usize * 32 / 3 + self.cover.bytes() + self.leaves.len()
     }
 
     /// Linear colour and alpha at `uv`, averaged over `texels` texels; nothing beyond the edges.
@@ -77,7 +82,8 @@ impl Sheet {
 
     /// Alpha alone.
     pub(crate) fn alpha(&self, uv: Vec2, texels: f32) -> f32 {
-        if on(uv) { self.texture.alpha(uv, self.width(texels)) } else { 0.0 }
+        let [width, height] = self.size();
+        if on(uv) { self.cover.alpha(uv * Vec2::new(width as f32, height as f32), texels) } else { 0.0 }
     }
 
     /// True where there are leaves.

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::f32::consts::TAU;
 
 use glam::Vec3;
 use light::{Path, Ray};
@@ -20,7 +21,7 @@ pub struct Placed {
     pub position: Vec3,
     /// How high it is \[m\], > 0; its width follows.
     pub height: f32,
-    /// How it is turned about its axis \[rad\]; beyond half a turn its side view is mirrored.
+    /// How it is turned about its axis \[rad\]; its side view is mirrored for negative ones and beyond half a turn.
     pub rotation: f32,
 }
 
@@ -63,7 +64,7 @@ impl std::fmt::Display for StandError {
 impl std::error::Error for StandError {}
 
 impl Stand {
-    /// A stand of `trees`, whose order it may change.
+    /// A stand of `trees`, whose order it may change; rotations are brought within half a turn.
     pub fn new(species: Vec<Species>, mut trees: Vec<Placed>) -> Result<Self, StandError> {
         if trees.len() > 1 << 30 {
             return Err(StandError::TooMany);
@@ -77,6 +78,7 @@ impl Stand {
                 return Err(StandError::NotANumber(i));
             }
         }
+        trees.iter_mut().for_each(|tree| tree.rotation = within_half_a_turn(tree.rotation));
         let nodes = hierarchy::build(&mut trees, &species);
         let (setting, shading) = (Setting::default(), Shading::default());
         Ok(Self { species, trees, nodes, setting, shading })
@@ -181,6 +183,11 @@ impl Stand {
         let met = Met { tree, placed, species, facing, line, scale, width };
         (opacity > 0.0).then(|| met.crossing(cross, colour, opacity))
     }
+}
+
+/// The same angle within \[−π, π\]: its sign says which half of a turn it is in.
+fn within_half_a_turn(angle: f32) -> f32 {
+    angle - TAU * (angle / TAU).round()
 }
 
 /// What comes next along a ray.
