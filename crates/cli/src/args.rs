@@ -1,5 +1,6 @@
 //! The command line.
 
+mod measure;
 mod skies;
 mod species;
 mod waters;
@@ -12,6 +13,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
 
+pub use measure::{Against, Measure, Only};
 pub use skies::{Place, Projection, Sky, Toward, When};
 pub use species::{BakeModel, FromPhotos, Grow, Pictures, Tree};
 pub use waters::Water;
@@ -49,6 +51,8 @@ pub enum Command {
     /// Species of trees: list them, grow them, bake them from models, make them from photographs.
     #[command(subcommand)]
     Tree(Tree),
+    /// What knobs cost and what they are off by on a scene: a table, a plot, a report with the pictures.
+    Measure(Measure),
     /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
     Compare(Compare),
     /// Print the JSON Schema of scene files.

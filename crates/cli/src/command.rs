@@ -12,7 +12,9 @@ use crate::plan::Plan;
 use crate::publish::{self, Content, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
-use crate::{Error, animate, assemble, caption, compare, lux, map_file, progress, skies, species, waters};
+use crate::{
+    Error, animate, assemble, caption, compare, lux, map_file, measure, progress, skies, species, waters,
+};
 
 /// The scene that is rendered when none is named.
 const PARK: &str = include_str!("../scenes/park.toml");
@@ -34,6 +36,7 @@ pub fn run(cli: &Cli) -> Result<(), Error> {
         Command::Sky(args) => skies::run(args, cli.json),
         Command::Water(args) => waters::run(args, cli.json),
         Command::Tree(args) => species::run(args, cli.json),
+        Command::Measure(args) => measure::run(args, cli.json),
         Command::Compare(args) => compare::run(args, cli.json),
         Command::Schema => say(&pretty(&scene::schema())),
     })

@@ -1,6 +1,6 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `tree`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `tree`, `measure`, `compare`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
@@ -19,6 +19,7 @@ pub mod knobs;
 mod looks;
 pub mod lux;
 mod map_file;
+pub mod measure;
 pub mod output;
 pub mod pipeline;
 pub mod plan;

@@ -1,0 +1,160 @@
+//! `keikan measure`: what a knob costs and what it is off by, on the user's own scene.
+
+mod html;
+mod plot;
+mod sweep;
+mod table;
+mod trial;
+
+use std::path::{Path, PathBuf};
+
+pub use sweep::Sweep;
+
+use crate::args::{self, Against, Size};
+use crate::command::{pretty, say};
+use crate::knobs::Preset;
+use crate::output::{self, Target};
+use crate::plan::Plan;
+use crate::{Error, caption, progress};
+use html::Report;
+use table::{Row, Table};
+use trial::{Trial, Trials, words};
+
+/// Most settings of one command.
+const MOST: usize = 1000;
+
+/// Pixels in a row where nobody says.
+const WIDTH: u32 = 480;
+
+/// What formats there are.
+const FORMATS: [&str; 4] = ["html", "csv", "json", "svg"];
+
+/// Runs the command.
+///
+/// # Errors
+/// Knobs, values or files that cannot be, before anything runs; what rendering says.
+pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
+    let monitor = progress::monitor();
+    let name = trial::name(args.view.scene.as_deref());
+    let outputs = outputs(args, &name)?;
+    let targets = outputs.iter().map(|path| Target::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let scene = trial::load(args.view.scene.as_deref())?;
+    let mut view = args.view.clone();
+    view.size = view.size.or(Some(Size { width: WIDTH, height: None }));
+    let trials = Trials { scene: &scene, view: &view, only: args.only, runs: args.runs, monitor: &monitor };
+    let settings = sweep::settings(&args.knob, args.each);
+    check(&settings, &trials)?;
+
+    let (done, truth) = all(args.against, &settings, &trials)?;
+    let measure = truth.as_ref().unwrap_or(&done[done.len() - 1]);
+    let mut rows =
+        done.iter().map(|trial| Row::new(trial, &measure.answer)).collect::<Result<Vec<_>, _>>()?;
+    table::mark_best(&mut rows);
+    let plot = plot::svg(&rows).map_err(Error::Usage)?;
+    let report = Report {
+        title: format!("keikan measure: {name}"),
+        facts: facts(args, &caption::describe(&scene), measure),
+        rows: &rows,
+        trials: &done,
+        truth: &measure.answer,
+        truth_name: words(&measure.setting),
+        plot: plot.as_deref(),
+    };
+    let files = targets.into_iter().zip(&outputs).map(|(target, path)| Ok((target, encode(path, &report)?)));
+    output::write(&files.collect::<Result<Vec<_>, Error>>()?)?;
+    outputs.iter().for_each(|path| eprintln!("wrote {}", path.display()));
+    say(&if json { pretty(&rows) } else { Table(&rows).to_string() })
+}
+
+/// All trials, and what they are measured by where that is none of them.
+fn all(
+    against: Against,
+    settings: &[Vec<(String, String)>],
+    trials: &Trials,
+) -> Result<(Vec<Trial>, Option<Trial>), Error> {
+    let mut done = Vec::with_capacity(settings.len());
+    for (i, setting) in settings.iter().enumerate() {
+        eprintln!("{} of {}: {}", i + 1, settings.len(), words(setting));
+        done.push(trials.run(setting)?);
+    }
+    let truth = match against {
+        Against::Best => None,
+        Against::Reference => {
+            eprintln!("the reference");
+            let view = args::View { preset: Preset::Reference, ..trials.view.clone() };
+            let once = Trials { runs: 1, ..*trials };
+            Some(once.run_view(&view, &[("preset".to_owned(), "reference".to_owned())])?)
+        }
+    };
+    Ok((done, truth))
+}
+
+/// Whether every setting can be, before the first runs.
+fn check(settings: &[Vec<(String, String)>], trials: &Trials) -> Result<(), Error> {
+    if settings.len() > MOST {
+        return Err(Error::Usage(format!(
+            "--knob: {} combinations are more than {MOST}; --each turns one knob at a time",
+            settings.len()
+        )));
+    }
+    if trials.only == Some(args::Only::Lux) && trials.scene.sensors.is_empty() {
+        return Err(Error::Usage("--only lux: the scene has no [[sensor]]".to_owned()));
+    }
+    settings.iter().try_for_each(|setting| Plan::new(trials.scene, &trials.view(setting)).map(|_| ()))
+}
+
+/// Where to write: as asked, or by the scene's name in the current folder.
+fn outputs(args: &args::Measure, name: &str) -> Result<Vec<PathBuf>, Error> {
+    if args.output.is_empty() {
+        return Ok(["html", "csv"]
+            .map(|extension| PathBuf::from(format!("{name}-measured.{extension}")))
+            .to_vec());
+    }
+    for (i, path) in args.output.iter().enumerate() {
+        if args.output[..i].contains(path) {
+            return Err(Error::Usage(format!("-o {}: given twice", path.display())));
+        }
+        if !FORMATS.contains(&extension(path).as_str()) {
+            return Err(Error::Usage(format!(
+                "-o {}: \"{}\" is not a format that can be written; there are: {}",
+                path.display(),
+                extension(path),
+                FORMATS.join(", ")
+            )));
+        }
+    }
+    Ok(args.output.clone())
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+fn encode(path: &Path, report: &Report) -> Result<Vec<u8>, Error> {
+    let failed = |what: String| Error::Output { path: path.display().to_string(), what };
+    Ok(match extension(path).as_str() {
+        "html" => report.html().map_err(failed)?,
+        "json" => pretty(&report.rows),
+        "svg" => report.plot.ok_or_else(|| failed("there is no point to plot".to_owned()))?.to_owned(),
+        _ => Table(report.rows).csv(),
+    }
+    .into_bytes())
+}
+
+/// What the report says before its table.
+fn facts(args: &args::Measure, site: &str, measure: &Trial) -> Vec<String> {
+    let set: Vec<String> = args.view.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
+    let set = if set.is_empty() { String::new() } else { format!(", with {}", set.join(" ")) };
+    let took = measure.seconds.iter().flatten().sum::<f64>();
+    vec![
+        format!("keikan {}. {site}", env!("CARGO_PKG_VERSION")),
+        format!(
+            "Preset {:?}{set}. Times are without loading, medians of {} runs.",
+            args.view.preset, args.runs
+        ),
+        format!(
+            "Errors are differences to {}, which took {took:.2} s; its own error is not in them.",
+            words(&measure.setting)
+        ),
+    ]
+}

@@ -1,0 +1,65 @@
+//! Error against time, as SVG.
+
+use plotters::prelude::*;
+
+use super::table::Row;
+
+/// Room around the outermost points, as a ratio.
+const ROOM: f64 = 1.5;
+
+const BLUE: RGBColor = RGBColor(30, 90, 160);
+const PALE: RGBColor = RGBColor(160, 160, 160);
+
+/// The plot, logarithmic both ways, with the front as a line and its settings named; what has no error, being the measure, has no
+/// place on it. None without a point to show.
+///
+/// # Errors
+/// What the drawing library says.
+pub(super) fn svg(rows: &[Row]) -> Result<Option<String>, String> {
+    let points: Vec<(f64, f64, &Row)> = rows
+        .iter()
+        .filter_map(|row| row.point().map(|[seconds, error]| (seconds.max(1e-4), error, row)))
+        .filter(|(_, error, _)| *error > 0.0)
+        .collect();
+    if points.is_empty() {
+        return Ok(None);
+    }
+    let span = |value: fn(&(f64, f64, &Row)) -> f64| {
+        let values = || points.iter().map(value);
+        (values().fold(f64::INFINITY, f64::min) / ROOM)..(values().fold(0.0, f64::max) * ROOM)
+    };
+    let mut text = String::new();
+    let mut draw = || -> Result<(), Box<dyn std::error::Error>> {
+        let root = SVGBackend::with_string(&mut text, (760, 460)).into_drawing_area();
+        let mut chart = ChartBuilder::on(&root)
+            .margin(16)
+            .x_label_area_size(42)
+            .y_label_area_size(70)
+            .build_cartesian_2d(span(|p| p.0).log_scale(), span(|p| p.1).log_scale())?;
+        let number = |value: &f64| format!("{}", (value * 1e6).round() / 1e6);
+        chart
+            .configure_mesh()
+            .x_desc("seconds")
+            .y_desc("error (share)")
+            .x_label_formatter(&number)
+            .y_label_formatter(&number)
+            .light_line_style(RGBColor(235, 235, 235))
+            .draw()?;
+        let mut front: Vec<(f64, f64)> =
+            points.iter().filter(|(.., row)| row.best_of_its_time).map(|(x, y, _)| (*x, *y)).collect();
+        front.sort_by(|a, b| a.0.total_cmp(&b.0));
+        chart.draw_series(LineSeries::new(front, BLUE.stroke_width(2)))?;
+        for (x, y, row) in &points {
+            let colour = if row.best_of_its_time { BLUE } else { PALE };
+            chart.draw_series([Circle::new((*x, *y), 4, colour.filled())])?;
+            if row.best_of_its_time {
+                let style = ("sans-serif", 13).into_font().color(&BLACK);
+                chart.draw_series([Text::new(format!(" {}", row.setting), (*x, *y), style)])?;
+            }
+        }
+        root.present()?;
+        Ok(())
+    };
+    let drawn = draw().map_err(|error| error.to_string());
+    drawn.map(|()| Some(text))
+}

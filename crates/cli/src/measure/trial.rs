@@ -1,0 +1,141 @@
+//! One setting, run: how long it took, how much memory, and what came out.
+
+use std::path::Path;
+
+use scene::Scene;
+
+use crate::args::{Only, View};
+use crate::assemble::Measuring;
+use crate::output::{self, Picture};
+use crate::pipeline::Monitor;
+use crate::plan::Plan;
+use crate::report::{self, Timings};
+use crate::studio::{FrameSpec, Studio};
+use crate::{Error, command, lux};
+
+/// What a setting gives and takes.
+pub(super) struct Trial {
+    /// Which knobs were set to what.
+    pub(super) setting: Vec<(String, String)>,
+    /// What it gives.
+    pub(super) answer: Answer,
+    /// Seconds for the picture without loading, median; and for the sensors.
+    pub(super) seconds: [Option<f64>; 2],
+    /// Of each run, as it went.
+    pub(super) runs: Vec<f64>,
+    /// Most memory that the process held meanwhile \[MiB\], where the system tells.
+    pub(super) memory_mib: Option<f64>,
+}
+
+/// What comes out.
+pub(super) struct Answer {
+    /// The picture.
+    pub(super) picture: Option<Picture>,
+    /// Illuminance at each sensor point \[lx\]; empty without any.
+    pub(super) lux: Vec<f64>,
+}
+
+/// What all trials have in common.
+pub(super) struct Trials<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) view: &'a View,
+    pub(super) only: Option<Only>,
+    pub(super) runs: u16,
+    pub(super) monitor: &'a Monitor,
+}
+
+impl Trials<'_> {
+    /// The view with a setting on top of what it says itself.
+    pub(super) fn view(&self, setting: &[(String, String)]) -> View {
+        View { set: [&self.view.set, setting].concat(), ..self.view.clone() }
+    }
+
+    /// Runs one setting.
+    ///
+    /// # Errors
+    /// What rendering or measuring says; [`Error::Interrupted`].
+    pub(super) fn run(&self, setting: &[(String, String)]) -> Result<Trial, Error> {
+        self.run_view(&self.view(setting), setting)
+    }
+
+    /// The same with a view as it is, which is called by the setting.
+    pub(super) fn run_view(&self, view: &View, setting: &[(String, String)]) -> Result<Trial, Error> {
+        let mut seconds = [Vec::new(), Vec::new()];
+        let mut answer = Answer { picture: None, lux: Vec::new() };
+        let forgotten = report::forget_peak_memory();
+        for _ in 0..self.runs {
+            if self.only != Some(Only::Lux) {
+                let (picture, took) = self.picture(view)?;
+                answer.picture = Some(picture);
+                seconds[0].push(took);
+            }
+            if self.only != Some(Only::Picture) && !self.scene.sensors.is_empty() {
+                let (lux, took) = self.lux(view)?;
+                answer.lux = lux;
+                seconds[1].push(took);
+            }
+        }
+        let memory_mib = report::peak_memory_mib().filter(|_| forgotten);
+        let runs = seconds[usize::from(seconds[0].is_empty())].clone();
+        Ok(Trial { setting: setting.to_vec(), answer, seconds: seconds.map(median), runs, memory_mib })
+    }
+
+    fn picture(&self, view: &View) -> Result<(Picture, f64), Error> {
+        let mut seconds = Timings::default();
+        let mut studio = Studio::new(self.scene.clone(), view.clone(), false);
+        let shot = studio.frame(&FrameSpec::default(), self.monitor, &mut seconds)?;
+        let picture = output::develop(&shot.film).into_iter().next();
+        let took = seconds.0.iter().map(|(_, seconds)| seconds).sum();
+        picture.map(|picture| (picture, took)).ok_or_else(|| Error::Usage("there is no picture".to_owned()))
+    }
+
+    fn lux(&self, view: &View) -> Result<(Vec<f64>, f64), Error> {
+        let mut seconds = Timings::default();
+        let table = seconds.time("lux", || -> Result<_, Error> {
+            let plan = Plan::new(self.scene, view)?.at_sensors();
+            Ok(lux::measure(self.scene, &Measuring::new(&plan, self.scene)?))
+        })?;
+        if self.monitor.interrupted.load(std::sync::atomic::Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        Ok((table.rows.iter().map(|row| row.total).collect(), seconds.0[0].1))
+    }
+}
+
+/// The middle value, or the mean of the two in the middle; none of none.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let count = values.len();
+    (count > 0).then(|| 0.5 * (values[(count - 1) / 2] + values[count / 2]))
+}
+
+/// The scene's name, for files and titles.
+pub(super) fn name(scene: Option<&Path>) -> String {
+    scene
+        .and_then(Path::file_stem)
+        .map_or_else(|| "park".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// A setting in words.
+pub(super) fn words(setting: &[(String, String)]) -> String {
+    setting.iter().map(|(knob, value)| format!("{knob}={value}")).collect::<Vec<_>>().join(" ")
+}
+
+/// The scene that is asked for, with its warnings said.
+pub(super) fn load(path: Option<&Path>) -> Result<Scene, Error> {
+    let scene = command::load(path)?;
+    command::warn(&scene);
+    Ok(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0]), Some(2.5));
+        assert_eq!(median(Vec::new()), None);
+    }
+}
