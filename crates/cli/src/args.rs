@@ -10,6 +10,7 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::effort::Wanted;
 use crate::frames::{Day, Frames};
 use crate::knobs::Preset;
 
@@ -90,6 +91,11 @@ pub struct Render {
     /// Where to write; .exr and .png tell the format; may be repeated. Default: the scene's name with both.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// With the least effort that leaves no more error than this, such as 2%: found by some pixels beforehand, checked by others
+    /// afterwards, all made again with much more effort. The root mean square over the mean; what models leave out is not in it.
+    /// Knobs of [settings] and --set stay.
+    #[arg(long, value_name = "SHARE", conflicts_with = "maps")]
+    pub error: Option<Wanted>,
     /// Keep what is known of the sky's light (sky.map=on) in this file from run to run: a further picture of the same
     /// scene, also under another sun (sky.visibility=patches), need not find it again.
     #[arg(long, value_name = "FILE")]
@@ -184,6 +190,9 @@ pub struct Lux {
     /// The scene.
     #[command(flatten)]
     pub view: View,
+    /// With the least effort that leaves no more error than this over all sensor points, such as 2%, as `keikan render` does.
+    #[arg(long, value_name = "SHARE")]
+    pub error: Option<Wanted>,
 }
 
 /// `keikan compare`.

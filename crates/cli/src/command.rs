@@ -13,7 +13,8 @@ use crate::publish::{self, Content, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
 use crate::{
-    Error, animate, assemble, caption, compare, lux, map_file, measure, progress, skies, species, waters,
+    Error, animate, assemble, caption, compare, effort, lux, map_file, measure, progress, skies, species,
+    waters,
 };
 
 /// The scene that is rendered when none is named.
@@ -69,13 +70,22 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     }
     let plan = Plan::new(&scene, &args.view)?.at_sensors();
     caution(&plan);
-    let measuring = assemble::Measuring::new(&plan, &scene)?;
-    let table = lux::measure(&scene, &measuring);
+    let (table, measuring, verdict) = match args.error {
+        Some(wanted) => {
+            let (table, measuring, verdict) = effort::table(&scene, &args.view, wanted)?;
+            (table, measuring, Some(verdict))
+        }
+        None => {
+            let measuring = assemble::Measuring::new(&plan, &scene)?;
+            (lux::measure(&scene, &measuring), measuring, None)
+        }
+    };
     let buried = lux::buried(&scene, &*measuring.dry, &table);
     for warning in measuring.warnings.iter().chain(&buried) {
         eprintln!("warning: {warning}");
     }
     table.uniformity.iter().for_each(|sensor| eprintln!("{sensor}"));
+    verdict.iter().for_each(|verdict| eprintln!("{verdict}"));
     say(&if json { pretty(&table) } else { table.to_string() })
 }
 
@@ -85,8 +95,19 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let targets: Vec<Target> = outputs.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let mut seconds = Timings::default();
     let scene = seconds.time("load", || load(args.view.scene.as_deref()))?;
-    let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
-    let Shot { scene, plan, film } = studio.frame(&FrameSpec::default(), &monitor, &mut seconds)?;
+    let (mut studio, shot, error) = match args.error {
+        Some(wanted) => {
+            let asked = (&scene, &args.view, args.develop.layers);
+            let (studio, shot, verdict) = effort::shot(asked, wanted, &monitor, &mut seconds)?;
+            (studio, shot, Some(verdict))
+        }
+        None => {
+            let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
+            let shot = studio.frame(&FrameSpec::default(), &monitor, &mut seconds)?;
+            (studio, shot, None)
+        }
+    };
+    let Shot { scene, plan, film } = shot;
     map_file::tell(studio.maps());
     let pictures = seconds.time("develop", || output::develop(&film));
     drop(film);
@@ -116,6 +137,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
         peak_memory_mib: report::peak_memory_mib(),
         luminance: [mean as f32, luminance.iter().copied().fold(0.0, f32::max)],
         exposure,
+        error,
         warnings,
         written: outputs,
     };

@@ -467,7 +467,7 @@ impl Settings {
         if self.choice("sky.visibility") == "auto" {
             let rays = self.integer("sky.sensor-rays").max(self.integer("sky.rays"));
             self.0.insert("sky.rays", rays.div_ceil(REPEATS).to_string());
-            if !self.1.contains("water.sky-rays") {
+            if !self.is_set("water.sky-rays") {
                 let window = rays.min(1024).max(self.integer("water.sky-rays"));
                 self.0.insert("water.sky-rays", window.to_string());
             }
@@ -479,6 +479,11 @@ impl Settings {
     /// Whether they are for sensors: what is asked there several times should differ each time, where in pictures it should not.
     pub fn are_for_sensors(&self) -> bool {
         self.2
+    }
+
+    /// Whether somebody has set this knob, whatever the preset says.
+    pub fn is_set(&self, name: &str) -> bool {
+        self.1.contains(name)
     }
 
     /// All knobs whose names begin so, with their values.

@@ -13,6 +13,7 @@ mod caption;
 mod caution;
 mod command;
 pub mod compare;
+pub mod effort;
 mod error;
 pub mod frames;
 pub mod knobs;

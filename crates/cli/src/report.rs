@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use crate::effort::Verdict;
 use crate::plan::Plan;
 
 /// Seconds per stage, in the order they ran.
@@ -37,6 +38,8 @@ pub struct Summary {
     pub luminance: [f32; 2],
     /// How the PNG was exposed, in words.
     pub exposure: Option<String>,
+    /// What error was asked for and what came of it; none where none was.
+    pub(crate) error: Option<Verdict>,
     /// What was repaired in the input, and what is less exact than one may think.
     pub warnings: Vec<String>,
     /// Files written.
@@ -61,6 +64,9 @@ impl fmt::Display for Summary {
         )?;
         if let Some(exposure) = &self.exposure {
             writeln!(f, "{exposure}")?;
+        }
+        if let Some(verdict) = &self.error {
+            writeln!(f, "{verdict}")?;
         }
         let seconds: Vec<String> =
             self.seconds.0.iter().map(|(stage, s)| format!("{stage} {s:.3} s")).collect();

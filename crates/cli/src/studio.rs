@@ -3,11 +3,14 @@
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
+use glam::Vec3;
 use light::Film;
+use rayon::prelude::*;
 use scene::Scene;
 
 use crate::assemble::{Maps, Standing};
-use crate::pipeline::{Monitor, Pipeline, Source};
+use crate::output;
+use crate::pipeline::{Monitor, Pipeline, Region, Source};
 use crate::plan::{MOST_PIXELS, Plan};
 use crate::report::Timings;
 use crate::{Error, args, progress};
@@ -111,6 +114,22 @@ impl Studio {
             })
         })?;
         Ok(Shot { scene, plan, film })
+    }
+
+    /// A few pixels of the frame as it stands, each by its column and row, in linear sRGB \[cd/m²\].
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub(crate) fn pixels(&mut self, at: &[[u32; 2]], monitor: &Monitor) -> Result<Vec<Vec3>, Error> {
+        let spec = FrameSpec::default();
+        let (scene, plan) = self.set_up(&spec)?;
+        let pipeline = self.pipeline(&spec, &plan, &scene, &mut Timings::default())?;
+        monitor.rendering.store(true, Ordering::Relaxed);
+        let pixel = |&[x, y]: &[u32; 2]| {
+            let film = pipeline.render(&Region { columns: x..x + 1, rows: y..y + 1 }, false, monitor)?;
+            Ok(output::develop(&film)[0].rgb[0])
+        };
+        at.par_iter().map(pixel).collect()
     }
 
     /// The stages of a frame: new ones only as far as it differs from the last.

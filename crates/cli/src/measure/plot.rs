@@ -4,9 +4,6 @@ use plotters::prelude::*;
 
 use super::table::Row;
 
-/// Room around the outermost points, as a ratio.
-const ROOM: f64 = 1.5;
-
 const BLUE: RGBColor = RGBColor(30, 90, 160);
 const PALE: RGBColor = RGBColor(160, 160, 160);
 
@@ -25,8 +22,13 @@ pub(super) fn svg(rows: &[Row]) -> Result<Option<String>, String> {
         return Ok(None);
     }
     let span = |value: fn(&(f64, f64, &Row)) -> f64| {
-        let values = || points.iter().map(value);
-        (values().fold(f64::INFINITY, f64::min) / ROOM)..(values().fold(0.0, f64::max) * ROOM)
+        // Whole decades, which have numbers at their ends.
+        let values = || points.iter().map(|point| value(point).log10());
+        let (low, high) = (
+            values().fold(f64::INFINITY, f64::min).floor(),
+            values().fold(f64::NEG_INFINITY, f64::max).ceil(),
+        );
+        10f64.powf(low)..10f64.powf(high.max(low + 1.0))
     };
     let mut text = String::new();
     let mut draw = || -> Result<(), Box<dyn std::error::Error>> {

@@ -1,0 +1,84 @@
+//! Illuminances with no more than so much error.
+
+use scene::{Scene, Sensor};
+
+use super::level::Level;
+use super::sample::{Purpose, numbers};
+use super::{Base, Subject, Verdict, Wanted, honoured};
+use crate::Error;
+use crate::args::View;
+use crate::assemble::Measuring;
+use crate::lux::{self, Table};
+use crate::plan::Plan;
+
+/// Points to choose by, and as many to check by.
+const POINTS: usize = 24;
+
+/// A table with no more than `wanted` error against much more effort, with what it was measured with, and what that took.
+///
+/// # Errors
+/// As [`Measuring::new`].
+pub(crate) fn table(
+    scene: &Scene,
+    view: &View,
+    wanted: Wanted,
+) -> Result<(Table, Measuring, Verdict), Error> {
+    let mut subject = Measured(Base::new(scene, view, Plan::new(scene, view)?));
+    let ((table, measuring), verdict) = honoured(&mut subject, wanted)?;
+    Ok((table, measuring, verdict))
+}
+
+struct Measured<'a>(Base<'a>);
+
+impl Measured<'_> {
+    fn points(&self) -> usize {
+        self.0.scene.sensors.iter().map(|sensor| sensor.points.len()).sum()
+    }
+
+    /// The scene with a sample of its sensor points alone.
+    fn sampled(&self, purpose: Purpose) -> Scene {
+        let wanted = numbers(self.points(), POINTS, purpose);
+        let mut before = 0;
+        let sensor = |sensor: &Sensor| {
+            let first = before;
+            before += sensor.points.len();
+            let own = wanted.iter().filter(|i| (first..first + sensor.points.len()).contains(*i));
+            Sensor { points: own.map(|i| sensor.points[i - first]).collect(), ..sensor.clone() }
+        };
+        let sensors = self.0.scene.sensors.iter().map(sensor).collect();
+        let mut scene = self.0.scene.clone();
+        scene.sensors = sensors;
+        scene
+    }
+
+    fn measured(&self, scene: &Scene, level: Level) -> Result<(Table, Measuring), Error> {
+        let plan = Plan::new(scene, &self.0.view(level))?.at_sensors();
+        let measuring = Measuring::new(&plan, scene)?;
+        Ok((lux::measure(scene, &measuring), measuring))
+    }
+}
+
+impl Subject for Measured<'_> {
+    type Whole = (Table, Measuring);
+    const WHAT: &'static str = "sensor points";
+    /// Sensors have many rays as it is.
+    const LEVELS: [Level; 2] = [Level(5), Level(7)];
+
+    fn base(&self) -> &Base<'_> {
+        &self.0
+    }
+
+    fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
+        let (table, _) = self.measured(&self.sampled(purpose), level)?;
+        Ok(table.rows.iter().map(|row| [row.total; 3]).collect())
+    }
+
+    fn whole(&mut self, level: Level) -> Result<(Table, Measuring), Error> {
+        self.measured(self.0.scene, level)
+    }
+
+    fn of(&self, (table, _): &(Table, Measuring), purpose: Purpose) -> Vec<[f64; 3]> {
+        let wanted = numbers(self.points(), POINTS, purpose);
+        wanted.into_iter().filter_map(|i| table.rows.get(i)).map(|row| [row.total; 3]).collect()
+    }
+}

@@ -1,0 +1,239 @@
+//! `--error`: the least effort that leaves no more than so much error, found on the scene itself and checked.
+//!
+//! What is judged is sampling and resolution: answers against those of much more effort by the same models. What models leave out
+//! is not in it (`keikan measure` and the book say that).
+
+mod error;
+mod level;
+mod lux;
+mod picture;
+mod sample;
+
+use std::fmt;
+use std::time::Instant;
+
+use scene::Scene;
+
+pub(crate) use error::Off;
+pub use error::Wanted;
+use level::{Level, expected};
+pub(crate) use lux::table;
+pub(crate) use picture::shot;
+use sample::Purpose;
+
+use crate::Error;
+use crate::args::View;
+use crate::knobs::Settings;
+use crate::plan::Plan;
+
+/// Where the search begins: below the default, where many pictures are good enough.
+const FIRST: Level = Level(2);
+
+/// What was asked and what came of it.
+#[derive(Clone, Debug, serde::Serialize)]
+pub(crate) struct Verdict {
+    /// The error asked for, as a share.
+    pub(crate) asked: f64,
+    /// What it is, by pixels or points that nothing was chosen by, made again with much more effort.
+    pub(crate) reached: Off,
+    /// Effort of the result: 0, 3, 6 are draft, normal, reference.
+    pub(crate) effort: u8,
+    /// Knobs that differ from the preset asked for.
+    pub(crate) set: Vec<(String, String)>,
+    /// Seconds for the result itself.
+    pub(crate) seconds: f64,
+    /// Seconds for choosing and for checking.
+    pub(crate) seconds_besides: f64,
+    /// What is made again.
+    #[serde(skip)]
+    what: &'static str,
+}
+
+/// What is asked for, before any effort.
+struct Base<'a> {
+    scene: &'a Scene,
+    view: &'a View,
+    settings: Settings,
+}
+
+impl<'a> Base<'a> {
+    fn new(scene: &'a Scene, view: &'a View, plan: Plan) -> Self {
+        Self { scene, view, settings: plan.settings }
+    }
+
+    /// What a level sets of what nobody else has.
+    fn set(&self, level: Level) -> Vec<(String, String)> {
+        let set = level.settings(|name| self.settings.is_set(name));
+        set.into_iter().filter(|(name, value)| self.settings.choice(name) != value).collect()
+    }
+
+    /// The view with that on top.
+    fn view(&self, level: Level) -> View {
+        View { set: [&self.view.set[..], &self.set(level)].concat(), ..self.view.clone() }
+    }
+}
+
+/// What can be made with more or less effort.
+trait Subject {
+    /// The whole.
+    type Whole;
+
+    /// What is sampled: `pixels`, `sensor points`.
+    const WHAT: &'static str;
+
+    /// The highest effort it is made with, and the effort that it is judged by.
+    const LEVELS: [Level; 2];
+
+    /// What it is made from.
+    fn base(&self) -> &Base<'_>;
+
+    /// A few of its numbers alone, with this effort.
+    fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error>;
+
+    /// All of it.
+    fn whole(&mut self, level: Level) -> Result<Self::Whole, Error>;
+
+    /// The same numbers of the whole.
+    fn of(&self, whole: &Self::Whole, purpose: Purpose) -> Vec<[f64; 3]>;
+}
+
+/// Finds the effort by a pilot of a few numbers, makes the whole and judges it by others; again with more while that is too much.
+fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Verdict), Error> {
+    let start = Instant::now();
+    let [top, judge] = S::LEVELS;
+    let truth = subject.some(judge, Purpose::Pilot)?;
+    let mut level = FIRST;
+    let mut found = Off::new(&subject.some(level, Purpose::Pilot)?, &truth);
+    // The least level that the pilot finds good enough; one below which it is not has been tried, or is the lowest.
+    let mut too_low: Option<Level> = None;
+    loop {
+        let good = found.relative_rmse <= wanted.0;
+        let next = if good {
+            let lower = expected((level, top), found.relative_rmse, wanted.0);
+            too_low.map_or(lower, |low| lower.max(Level(low.0 + 1)))
+        } else {
+            too_low = Some(level);
+            expected((level, top), found.relative_rmse, wanted.0)
+        };
+        if next == level || (!good && level == top) || (good && next > level) {
+            break;
+        }
+        level = next;
+        found = Off::new(&subject.some(level, Purpose::Pilot)?, &truth);
+    }
+    let check = subject.some(judge, Purpose::Check)?;
+    loop {
+        let begun = Instant::now();
+        let whole = subject.whole(level)?;
+        let seconds = begun.elapsed().as_secs_f64();
+        let reached = Off::new(&subject.of(&whole, Purpose::Check), &check);
+        if reached.relative_rmse <= wanted.0 || level == top {
+            let seconds_besides = start.elapsed().as_secs_f64() - seconds;
+            let (asked, effort, set) = (wanted.0, level.0, subject.base().set(level));
+            return Ok((
+                whole,
+                Verdict { asked, reached, effort, set, seconds, seconds_besides, what: S::WHAT },
+            ));
+        }
+        level = expected((level, top), reached.relative_rmse, wanted.0);
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { asked, reached, effort, seconds, seconds_besides, what, .. } = self;
+        let missed = if reached.relative_rmse > *asked { ", not reached" } else { "" };
+        writeln!(
+            f,
+            "error: asked {:.2} %, found {reached}{missed} ({} {what} made again with much more effort)",
+            100.0 * asked,
+            reached.count
+        )?;
+        let set: Vec<String> = self.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
+        writeln!(f, "effort {effort} (3 = normal, 6 = reference): {}", set.join(" "))?;
+        write!(f, "{seconds:.2} s for the result, {seconds_besides:.2} s to choose and to check")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whose error falls by `fall` a level from `at_first`, as pilot and check see it.
+    struct Falling<'a> {
+        base: Base<'a>,
+        pilot: f64,
+        check: f64,
+        fall: f64,
+        made: Vec<u8>,
+    }
+
+    impl Falling<'_> {
+        fn error(&self, level: Level, purpose: Purpose) -> Vec<[f64; 3]> {
+            let first = if purpose == Purpose::Pilot { self.pilot } else { self.check };
+            let off = if level == Level(9) { 0.0 } else { first / self.fall.powi(i32::from(level.0)) };
+            vec![[1.0 + off; 3]; 4]
+        }
+    }
+
+    impl Subject for Falling<'_> {
+        type Whole = Level;
+        const WHAT: &'static str = "numbers";
+        const LEVELS: [Level; 2] = [Level(7), Level(9)];
+
+        fn base(&self) -> &Base<'_> {
+            &self.base
+        }
+
+        fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
+            Ok(self.error(level, purpose))
+        }
+
+        fn whole(&mut self, level: Level) -> Result<Level, Error> {
+            self.made.push(level.0);
+            Ok(level)
+        }
+
+        fn of(&self, level: &Level, purpose: Purpose) -> Vec<[f64; 3]> {
+            self.error(*level, purpose)
+        }
+    }
+
+    fn asked(pilot: f64, check: f64, fall: f64) -> (Verdict, Vec<u8>) {
+        let scene = crate::command::load(None).unwrap();
+        let view = View::default();
+        let base = Base::new(&scene, &view, Plan::new(&scene, &view).unwrap());
+        let mut subject = Falling { base, pilot, check, fall, made: Vec::new() };
+        let (_, verdict) = honoured(&mut subject, Wanted(0.02)).unwrap();
+        (verdict, subject.made)
+    }
+
+    #[test]
+    fn the_least_effort_is_found() {
+        for (first, fall) in [(0.3, 1.5), (0.3, 2.5), (0.05, 1.2), (0.019, 1.5), (0.3, 8.0)] {
+            let (verdict, made) = asked(first, first, fall);
+            let least = (0..=7).find(|level| first / fall.powi(i32::from(*level)) <= 0.02).unwrap();
+            assert!(verdict.reached.relative_rmse <= 0.02, "{verdict}");
+            // Errors that fall faster than is expected may leave it one too high.
+            assert!(
+                verdict.effort >= least && verdict.effort <= least + 1,
+                "{first} {fall}: {} {least}",
+                verdict.effort
+            );
+            assert_eq!(made, [verdict.effort]);
+        }
+    }
+
+    #[test]
+    fn a_check_that_says_more_is_believed() {
+        let (verdict, made) = asked(0.03, 0.09, 1.5);
+        assert!(verdict.reached.relative_rmse <= 0.02 && made.len() > 1);
+    }
+
+    #[test]
+    fn what_cannot_be_reached_is_said() {
+        let (verdict, _) = asked(1.0, 1.0, 1.1);
+        assert_eq!(verdict.effort, 7);
+        assert!(verdict.to_string().contains("not reached"));
+    }
+}
