@@ -56,6 +56,8 @@ pub enum Command {
     Measure(Measure),
     /// Compare two pictures (EXR or PNG): relative RMSE, largest difference, ΔE2000, SSIM.
     Compare(Compare),
+    /// Make again every picture of a list, such as those of the book.
+    Gallery(Gallery),
     /// Print the JSON Schema of scene files.
     Schema,
 }
@@ -209,6 +211,17 @@ pub struct Compare {
     /// How it becomes files.
     #[command(flatten)]
     pub develop: Develop,
+}
+
+/// `keikan gallery`.
+#[derive(Args, Clone, Debug)]
+pub struct Gallery {
+    /// The list; its paths begin at the current folder.
+    #[arg(default_value = "docs/gallery.toml")]
+    pub list: PathBuf,
+    /// Only pictures whose names begin so.
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
 }
 
 /// How luminance becomes grey.

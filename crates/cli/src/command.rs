@@ -13,8 +13,8 @@ use crate::publish::{self, Content, Page};
 use crate::report::{self, Summary, Timings};
 use crate::studio::{FrameSpec, Shot, Studio};
 use crate::{
-    Error, animate, assemble, caption, compare, effort, lux, map_file, measure, progress, skies, species,
-    waters,
+    Error, animate, assemble, caption, compare, effort, gallery, lux, map_file, measure, progress, skies,
+    species, waters,
 };
 
 /// The scene that is rendered when none is named.
@@ -29,18 +29,27 @@ pub fn run(cli: &Cli) -> Result<(), Error> {
         .num_threads(cli.threads)
         .build()
         .map_err(|error| Error::Usage(format!("--threads {}: {error}", cli.threads)))?;
-    pool.install(|| match &cli.command {
-        Command::Render(args) => render(args, cli.json),
-        Command::Animate(args) => animate::run(args, cli.json),
-        Command::Plan(args) => plan(args, cli.json),
-        Command::Lux(args) => illuminances(args, cli.json),
-        Command::Sky(args) => skies::run(args, cli.json),
-        Command::Water(args) => waters::run(args, cli.json),
-        Command::Tree(args) => species::run(args, cli.json),
-        Command::Measure(args) => measure::run(args, cli.json),
-        Command::Compare(args) => compare::run(args, cli.json),
+    pool.install(|| dispatch(&cli.command, cli.json))
+}
+
+/// Runs one command on the threads that there are.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn dispatch(command: &Command, json: bool) -> Result<(), Error> {
+    match command {
+        Command::Render(args) => render(args, json),
+        Command::Animate(args) => animate::run(args, json),
+        Command::Plan(args) => plan(args, json),
+        Command::Lux(args) => illuminances(args, json),
+        Command::Sky(args) => skies::run(args, json),
+        Command::Water(args) => waters::run(args, json),
+        Command::Tree(args) => species::run(args, json),
+        Command::Measure(args) => measure::run(args, json),
+        Command::Compare(args) => compare::run(args, json),
+        Command::Gallery(args) => gallery::run(args),
         Command::Schema => say(&pretty(&scene::schema())),
-    })
+    }
 }
 
 /// The scene that is asked for, or the embedded one.

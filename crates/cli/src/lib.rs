@@ -1,6 +1,6 @@
 //! The program: arguments → plan → pipeline → picture or lux.
 //!
-//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `tree`, `measure`, `compare`, `schema`. [`assemble`] is the only place that
+//! **Answers.** `render`, `animate`, `plan`, `lux`, `sky`, `water`, `tree`, `measure`, `compare`, `gallery`, `schema`. [`assemble`] is the only place that
 //! names chapters; [`pipeline`] composes them through their questions alone; [`output`] writes files,
 //! each whole or not at all.
 //!
@@ -16,6 +16,7 @@ pub mod compare;
 pub mod effort;
 mod error;
 pub mod frames;
+mod gallery;
 pub mod knobs;
 mod looks;
 pub mod lux;

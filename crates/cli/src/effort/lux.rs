@@ -62,7 +62,7 @@ impl Subject for Measured<'_> {
     type Whole = (Table, Measuring);
     const WHAT: &'static str = "sensor points";
     /// Sensors have many rays as it is.
-    const LEVELS: [Level; 2] = [Level(5), Level(7)];
+    const TOP: Level = Level(5);
 
     fn base(&self) -> &Base<'_> {
         &self.0

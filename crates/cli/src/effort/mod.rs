@@ -81,8 +81,8 @@ trait Subject {
     /// What is sampled: `pixels`, `sensor points`.
     const WHAT: &'static str;
 
-    /// The highest effort it is made with, and the effort that it is judged by.
-    const LEVELS: [Level; 2];
+    /// The highest effort it is made with.
+    const TOP: Level;
 
     /// What it is made from.
     fn base(&self) -> &Base<'_>;
@@ -97,45 +97,72 @@ trait Subject {
     fn of(&self, whole: &Self::Whole, purpose: Purpose) -> Vec<[f64; 3]>;
 }
 
+/// Judges answers by those of much more effort, each asked for once.
+struct Judge<'a, S> {
+    subject: &'a mut S,
+    kept: Vec<(Level, Purpose, Vec<[f64; 3]>)>,
+}
+
+impl<S: Subject> Judge<'_, S> {
+    /// What numbers of this effort should have been: by three levels more, whose own errors are a quarter of theirs and less, and by the
+    /// preset `reference` at least.
+    fn truth(&mut self, level: Level, purpose: Purpose) -> Result<&[[f64; 3]], Error> {
+        let judge = Level((level.0 + 3).max(6));
+        let known = |(level, of, _): &(Level, Purpose, _)| *level == judge && *of == purpose;
+        if !self.kept.iter().any(known) {
+            let numbers = self.subject.some(judge, purpose)?;
+            self.kept.push((judge, purpose, numbers));
+        }
+        Ok(self.kept.iter().find(|kept| known(kept)).map_or(&[], |(.., numbers)| numbers))
+    }
+
+    /// How far a few numbers of this effort are off.
+    fn pilot(&mut self, level: Level) -> Result<f64, Error> {
+        let numbers = self.subject.some(level, Purpose::Pilot)?;
+        Ok(Off::new(&numbers, self.truth(level, Purpose::Pilot)?).relative_rmse)
+    }
+
+    /// The least effort that the pilot finds good enough; the highest where none is.
+    fn least(&mut self, wanted: f64) -> Result<Level, Error> {
+        let (mut level, mut too_low) = (FIRST, None);
+        loop {
+            let found = self.pilot(level)?;
+            let next = expected((level, S::TOP), found, wanted);
+            let next = if found <= wanted {
+                // Nothing that was too little before.
+                too_low.map_or(next, |low: Level| next.max(Level(low.0 + 1)))
+            } else {
+                too_low = Some(level);
+                next
+            };
+            if next == level || (found <= wanted && next > level) {
+                return Ok(level);
+            }
+            level = next;
+        }
+    }
+}
+
 /// Finds the effort by a pilot of a few numbers, makes the whole and judges it by others; again with more while that is too much.
 fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Verdict), Error> {
     let start = Instant::now();
-    let [top, judge] = S::LEVELS;
-    let truth = subject.some(judge, Purpose::Pilot)?;
-    let mut level = FIRST;
-    let mut found = Off::new(&subject.some(level, Purpose::Pilot)?, &truth);
-    // The least level that the pilot finds good enough; one below which it is not has been tried, or is the lowest.
-    let mut too_low: Option<Level> = None;
-    loop {
-        let good = found.relative_rmse <= wanted.0;
-        let next = if good {
-            let lower = expected((level, top), found.relative_rmse, wanted.0);
-            too_low.map_or(lower, |low| lower.max(Level(low.0 + 1)))
-        } else {
-            too_low = Some(level);
-            expected((level, top), found.relative_rmse, wanted.0)
-        };
-        if next == level || (!good && level == top) || (good && next > level) {
-            break;
-        }
-        level = next;
-        found = Off::new(&subject.some(level, Purpose::Pilot)?, &truth);
-    }
-    let check = subject.some(judge, Purpose::Check)?;
+    let mut judge = Judge { subject, kept: Vec::new() };
+    let mut level = judge.least(wanted.0)?;
     loop {
         let begun = Instant::now();
-        let whole = subject.whole(level)?;
+        let whole = judge.subject.whole(level)?;
         let seconds = begun.elapsed().as_secs_f64();
-        let reached = Off::new(&subject.of(&whole, Purpose::Check), &check);
-        if reached.relative_rmse <= wanted.0 || level == top {
+        let numbers = judge.subject.of(&whole, Purpose::Check);
+        let reached = Off::new(&numbers, judge.truth(level, Purpose::Check)?);
+        if reached.relative_rmse <= wanted.0 || level == S::TOP {
             let seconds_besides = start.elapsed().as_secs_f64() - seconds;
-            let (asked, effort, set) = (wanted.0, level.0, subject.base().set(level));
+            let (asked, effort, set) = (wanted.0, level.0, judge.subject.base().set(level));
             return Ok((
                 whole,
                 Verdict { asked, reached, effort, set, seconds, seconds_besides, what: S::WHAT },
             ));
         }
-        level = expected((level, top), reached.relative_rmse, wanted.0);
+        level = expected((level, S::TOP), reached.relative_rmse, wanted.0);
     }
 }
 
@@ -159,7 +186,7 @@ impl fmt::Display for Verdict {
 mod tests {
     use super::*;
 
-    /// Whose error falls by `fall` a level from `at_first`, as pilot and check see it.
+    /// Whose error falls by `fall` a level from what it is at level 0, as pilot and check see it.
     struct Falling<'a> {
         base: Base<'a>,
         pilot: f64,
@@ -171,7 +198,7 @@ mod tests {
     impl Falling<'_> {
         fn error(&self, level: Level, purpose: Purpose) -> Vec<[f64; 3]> {
             let first = if purpose == Purpose::Pilot { self.pilot } else { self.check };
-            let off = if level == Level(9) { 0.0 } else { first / self.fall.powi(i32::from(level.0)) };
+            let off = first / self.fall.powi(i32::from(level.0));
             vec![[1.0 + off; 3]; 4]
         }
     }
@@ -179,7 +206,7 @@ mod tests {
     impl Subject for Falling<'_> {
         type Whole = Level;
         const WHAT: &'static str = "numbers";
-        const LEVELS: [Level; 2] = [Level(7), Level(9)];
+        const TOP: Level = Level(6);
 
         fn base(&self) -> &Base<'_> {
             &self.base
@@ -210,9 +237,15 @@ mod tests {
 
     #[test]
     fn the_least_effort_is_found() {
-        for (first, fall) in [(0.3, 1.5), (0.3, 2.5), (0.05, 1.2), (0.019, 1.5), (0.3, 8.0)] {
+        for (first, fall) in [(0.2, 1.5), (0.3, 2.5), (0.05, 1.3), (0.019, 1.5), (0.3, 8.0)] {
             let (verdict, made) = asked(first, first, fall);
-            let least = (0..=7).find(|level| first / fall.powi(i32::from(*level)) <= 0.02).unwrap();
+            // What judges has an error too: of the same sign here, so that differences are smaller.
+            let found = |level: u8| {
+                let at = |level: u8| first / f64::powi(fall, i32::from(level));
+                let truth = at((level + 3).max(6));
+                (at(level) - truth) / (1.0 + truth)
+            };
+            let least = (0..=6).find(|level| found(*level) <= 0.02).unwrap();
             assert!(verdict.reached.relative_rmse <= 0.02, "{verdict}");
             // Errors that fall faster than is expected may leave it one too high.
             assert!(
@@ -232,8 +265,8 @@ mod tests {
 
     #[test]
     fn what_cannot_be_reached_is_said() {
-        let (verdict, _) = asked(1.0, 1.0, 1.1);
-        assert_eq!(verdict.effort, 7);
+        let (verdict, _) = asked(3.0, 3.0, 1.2);
+        assert_eq!(verdict.effort, 6);
         assert!(verdict.to_string().contains("not reached"));
     }
 }

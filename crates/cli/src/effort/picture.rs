@@ -14,7 +14,7 @@ use crate::report::Timings;
 use crate::studio::{FrameSpec, Shot, Studio};
 
 /// Pixels to choose by, and as many to check by.
-const PIXELS: usize = 400;
+const PIXELS: usize = 256;
 
 /// A picture with no more than `wanted` error against much more effort, and what that took.
 ///
@@ -58,8 +58,7 @@ impl Pictured<'_> {
 impl Subject for Pictured<'_> {
     type Whole = Shot;
     const WHAT: &'static str = "pixels";
-    /// Sky, sun and lamps are judged with 4 and more times the rays.
-    const LEVELS: [Level; 2] = [Level(7), Level(9)];
+    const TOP: Level = Level(6);
 
     fn base(&self) -> &Base<'_> {
         &self.base
