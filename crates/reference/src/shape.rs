@@ -1,0 +1,186 @@
+//! All faces of a world: those of its things, and those of its waters.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec2, DVec3, Vec3};
+use light::{Geometry, Instance, Mesh, Opacity};
+
+use crate::tree::{Line, Meeting, Tree};
+use crate::water::Water;
+
+/// What a face belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Face {
+    /// Triangle of an instance.
+    Thing { instance: u32, triangle: u32 },
+    /// The surface of a water.
+    Surface(usize),
+    /// The side of a water, where it ends without a surface: light passes it straight.
+    Side,
+}
+
+/// A point of a face, as a line has come to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    pub(crate) face: Face,
+    pub(crate) position: DVec3,
+    /// Unit normal of the face, on the side that the line comes from.
+    pub(crate) normal: DVec3,
+    /// Unit normal for shading, on the same side.
+    pub(crate) smooth: DVec3,
+    /// Whether the line comes from the outside, where corners run counter-clockwise.
+    pub(crate) front: bool,
+    pub(crate) uv: DVec2,
+    pub(crate) colour: Vec3,
+}
+
+/// Faces made ready for lines.
+pub(crate) struct Shape {
+    geometry: Arc<Geometry>,
+    /// Of things and surfaces, then of sides.
+    faces: Vec<Face>,
+    tree: Tree,
+    sides: Tree,
+    /// How far a line begins beyond the face that it leaves \[m\]: many times what points are off by in f64, far less than anything is thick.
+    pub(crate) off: f64,
+    /// Ways to lamps end so far before them \[m\]: a lamp, rounded to f32, may lie behind the face that it is set into.
+    pub(crate) before: f64,
+}
+
+/// Share of the largest coordinate.
+const OFF: f64 = 1e-12;
+/// Likewise: 16 roundings of f32.
+const BEFORE: f64 = 1e-6;
+
+impl Shape {
+    pub(crate) fn new(geometry: Arc<Geometry>, waters: &[Water]) -> Self {
+        let (mut faces, mut triangles, mut sides) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, instance) in geometry.instances.iter().enumerate() {
+            for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
+                faces.push(Face::Thing { instance: i as u32, triangle: t as u32 });
+                triangles.push(geometry.triangle(i as u32, t as u32).0);
+            }
+        }
+        let lowest = triangles.iter().flatten().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+        for (i, water) in waters.iter().enumerate() {
+            for triangle in &water.triangles {
+                faces.push(Face::Surface(i));
+                triangles.push(triangle.map(|at| water.at(at)));
+            }
+            if water.extinction().is_zero() {
+                continue;
+            }
+            let bottom = lowest.min(water.level) - 1.0;
+            for [a, b] in water.outline() {
+                let [a, b] = [a, b].map(|at| water.at(at));
+                let [c, d] = [b, a].map(|corner| corner.with_y(bottom));
+                sides.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        faces.resize(faces.len() + sides.len(), Face::Side);
+        let tree = Tree::new(triangles);
+        let reach = tree.bounds().map_or(1.0, |(low, high)| low.abs().max(high.abs()).max_element()).max(1.0);
+        Self { geometry, faces, tree, sides: Tree::new(sides), off: OFF * reach, before: BEFORE * reach }
+    }
+
+    /// What a line meets first, before `length`. A side of a water within a wall is not met: whoever passes it would be beyond the wall.
+    pub(crate) fn nearest(&self, line: &Line, length: f64) -> Option<Meeting> {
+        let first = self.tree.nearest(line, length);
+        let before = first.map_or(length, |meeting| meeting.distance - 4.0 * self.off);
+        let side = self.sides.nearest(line, before);
+        let side = side.map(|side| Meeting { triangle: side.triangle + self.tree.len() as u32, ..side });
+        side.or(first)
+    }
+
+    pub(crate) fn face(&self, meeting: &Meeting) -> Face {
+        self.faces[meeting.triangle as usize]
+    }
+
+    pub(crate) fn mesh(&self, instance: u32) -> &Mesh {
+        &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize]
+    }
+
+    /// All that is known of where `line` meets a face.
+    pub(crate) fn point(&self, line: &Line, meeting: &Meeting) -> Point {
+        let face = self.face(meeting);
+        let corners = match face {
+            Face::Side => self.sides.triangle(meeting.triangle - self.tree.len() as u32),
+            _ => self.tree.triangle(meeting.triangle),
+        };
+        let [v, w] = meeting.weights;
+        let weights = [1.0 - v - w, v, w];
+        let position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let mut outward = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
+        let Face::Thing { instance, triangle } = face else {
+            let front = outward.dot(line.direction) <= 0.0;
+            let normal = if front { outward } else { -outward };
+            return Point {
+                face,
+                position,
+                normal,
+                smooth: normal,
+                front,
+                uv: DVec2::ZERO,
+                colour: Vec3::ONE,
+            };
+        };
+        let placed = &self.geometry.instances[instance as usize];
+        if placed.world_from_mesh.matrix3.determinant() < 0.0 {
+            outward = -outward;
+        }
+        let front = outward.dot(line.direction) <= 0.0;
+        let normal = if front { outward } else { -outward };
+        let mesh = self.mesh(instance);
+        let ends = mesh.triangles[triangle as usize].map(|i| i as usize);
+        let colour = match mesh.colours.is_empty() {
+            true => Vec3::ONE,
+            false => (0..3).map(|k| mesh.colours[ends[k]] * weights[k] as f32).sum(),
+        };
+        let (smooth, uv) = (smooth(mesh, placed, ends, weights, normal), uv(mesh, ends, weights));
+        Point { face, position, normal, smooth, front, uv, colour }
+    }
+
+    /// How much of the face is there where a line meets it, within \[0, 1\].
+    pub(crate) fn opacity(&self, meeting: &Meeting) -> f64 {
+        let Face::Thing { instance, triangle } = self.face(meeting) else { return 1.0 };
+        let mesh = self.mesh(instance);
+        let Some(opacity) = &mesh.opacity else { return 1.0 };
+        let [v, w] = meeting.weights;
+        let ends = mesh.triangles[triangle as usize].map(|i| i as usize);
+        f64::from(there(opacity, uv(mesh, ends, [1.0 - v - w, v, w])))
+    }
+
+    /// Where a line goes on from `point` along `direction`.
+    pub(crate) fn leave(&self, point: &Point, direction: DVec3) -> Line {
+        let side = if direction.dot(point.normal) < 0.0 { -point.normal } else { point.normal };
+        Line { origin: point.position + side * self.off, direction }
+    }
+}
+
+fn there(opacity: &Opacity, uv: DVec2) -> f32 {
+    opacity.at(uv.as_vec2(), 0.0).clamp(0.0, 1.0)
+}
+
+fn uv(mesh: &Mesh, ends: [usize; 3], weights: [f64; 3]) -> DVec2 {
+    match mesh.uvs.is_empty() {
+        true => DVec2::ZERO,
+        false => (0..3).map(|k| mesh.uvs[ends[k]].as_dvec2() * weights[k]).sum(),
+    }
+}
+
+/// The interpolated normal, on the side of `flat`; `flat` itself where there is none.
+fn smooth(mesh: &Mesh, placed: &Instance, ends: [usize; 3], weights: [f64; 3], flat: DVec3) -> DVec3 {
+    if mesh.normals.is_empty() {
+        return flat;
+    }
+    let local: DVec3 = (0..3).map(|k| mesh.normals[ends[k]].as_dvec3() * weights[k]).sum();
+    // Normals go by the inverse transpose: by its multiple, the cofactors.
+    let m = placed.world_from_mesh.matrix3;
+    let cofactors =
+        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    match (cofactors * local).try_normalize() {
+        Some(smooth) if smooth.dot(flat) > 0.0 => smooth,
+        Some(smooth) if smooth.dot(flat) < 0.0 => -smooth,
+        _ => flat,
+    }
+}
