@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::bands::Bands;
 use crate::dice::Dice;
+use crate::look::Looking;
 use crate::tree::Line;
 use crate::walk::{Since, Walk};
 use crate::world::World;
@@ -16,7 +17,8 @@ pub struct Effort {
     /// Walks for each sensor or pixel, ≥ 1; errors fall with their root.
     pub samples: u32,
     /// How often light may be scattered after it has left its source and before it arrives, 0 being straight light alone; none = as
-    /// often as it is. Mirrors, glass and water surfaces do not count, flights in water do.
+    /// often as it is. Mirrors, glass and water surfaces do not count, flights in water do; light that a face emits has been sent by a face
+    /// once, as if it had been scattered there.
     pub scattered: Option<u32>,
     /// Decides every random number: two of the same seed are the same to the bit.
     pub seed: u64,
@@ -120,7 +122,9 @@ fn received(world: &World, at: DVec3, normal: DVec3, effort: &Effort, sample: u6
         let cos = toward.dot(normal).max(0.0);
         (Bands::splat(cos), cos * FRAC_1_PI)
     };
-    let lamps = world.look_for_lamps(at, &|_| at, &receives, &mut dice);
+    let place =
+        Looking { position: at, leave: &|_| at, scatters: &receives, glow: effort.scattered != Some(0) };
+    let lamps = world.look_for_lamps(&place, &mut dice);
     let toward = dice.cosine(normal);
     let since = Since::Scattered(at, receives(toward).1);
     let line = Line { origin: at, direction: toward };

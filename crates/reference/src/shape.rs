@@ -100,6 +100,26 @@ impl Shape {
         &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize]
     }
 
+    /// Triangles of things, and their instances.
+    pub(crate) fn things(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.faces.iter().enumerate().filter_map(|(i, face)| match face {
+            Face::Thing { instance, .. } => Some((i as u32, *instance)),
+            _ => None,
+        })
+    }
+
+    /// Twice the area of a triangle of things or surfaces, times its normal.
+    pub(crate) fn cross(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.tree.triangle(triangle);
+        (b - a).cross(c - a)
+    }
+
+    /// Where on a triangle of things or surfaces.
+    pub(crate) fn position(&self, meeting: &Meeting) -> DVec3 {
+        let ([a, b, c], [v, w]) = (self.tree.triangle(meeting.triangle), meeting.weights);
+        a * (1.0 - v - w) + b * v + c * w
+    }
+
     /// All that is known of where `line` meets a face.
     pub(crate) fn point(&self, line: &Line, meeting: &Meeting) -> Point {
         let face = self.face(meeting);

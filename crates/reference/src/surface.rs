@@ -94,6 +94,11 @@ impl Surface {
         }
     }
 
+    /// Luminance that it emits at most, whatever its texture says \[cd/m²\].
+    pub(crate) fn brightness(&self) -> f64 {
+        f64::from(self.emission.max(Vec3::ZERO).dot(LUMINANCE))
+    }
+
     /// Its colour as a reflectance.
     pub(crate) fn colour(&self, point: &Point) -> Bands {
         let texture = self.base_texture.as_ref().map_or(Vec3::ONE, |image| image.colour(point));

@@ -7,20 +7,17 @@ use crate::bands::Bands;
 use crate::dice::Dice;
 use crate::glass::{self, Turn};
 use crate::lamp::Lamp;
+use crate::look::{Looking, asked};
 use crate::shape::{Face, Point};
-use crate::surface::Local;
+use crate::surface::{Local, Surface};
 use crate::tree::Line;
 use crate::water::Water;
-use crate::ways;
 use crate::world::World;
 
 /// Turns that a walk takes for sure; afterwards it goes on with a probability of what is left of it.
 const SURE: u32 = 4;
 /// Largest probability to go on.
 const LIKELY: f64 = 0.95;
-/// Lamps that are all looked for at each point; of more, one at a time is.
-const FEW: usize = 6;
-
 /// How what a walk meets of a lamp counts, so that nothing counts twice that was looked for on the way already.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Since {
@@ -84,7 +81,9 @@ impl<'a> Walk<'a> {
         self.share *= water.map_or(Bands::ONE, |water| passed(water, far));
         let Some(meeting) = meeting else {
             if let Some(sky) = &self.world.sky {
-                self.found += self.share * sky(self.line.direction);
+                let toward = self.line.direction;
+                let weight = self.shared(|_| sky.density(toward));
+                self.found += self.share * (sky.sky)(toward) * weight;
             }
             return false;
         };
@@ -164,7 +163,7 @@ impl<'a> Walk<'a> {
         let density = (extinction * left).mean();
         let scattering = water.scattering();
         let arrived = self.line.at(flight);
-        if density <= 0.0 || self.limit.is_some_and(|limit| self.scattered >= limit) {
+        if density <= 0.0 || !self.may_scatter(0) {
             return false;
         }
         self.share *= left * (1.0 / density);
@@ -224,7 +223,9 @@ impl<'a> Walk<'a> {
     /// At a face of a thing.
     fn thing(&mut self, instance: u32, point: &Point) -> bool {
         let (surface, boundary) = self.world.surface(instance);
-        self.found += self.share * surface.emitted(point);
+        if self.may_scatter(0) {
+            self.glow(surface, point);
+        }
         if let Some(body) = &surface.body {
             match glass::turn(surface, body, point, self.line.direction, self.dice) {
                 Turn::Mirrored(direction) => return self.turned(point, direction),
@@ -244,7 +245,7 @@ impl<'a> Walk<'a> {
                 Turn::Matt => {}
             }
         }
-        if self.limit.is_some_and(|limit| self.scattered >= limit) {
+        if !self.may_scatter(0) {
             return false;
         }
         let local = Local::new(surface, boundary, point);
@@ -269,13 +270,38 @@ impl<'a> Walk<'a> {
         true
     }
 
+    /// What a face emits, as far as nobody has looked for it yet.
+    fn glow(&mut self, surface: &Surface, point: &Point) {
+        let emitted = surface.emitted(point);
+        if let (false, Some(glow)) = (emitted.is_zero(), &self.world.glow) {
+            let toward = self.line.direction;
+            let weight =
+                self.shared(|origin| glow.density(surface, point, toward, origin.distance(point.position)));
+            self.found += self.share * emitted * weight;
+        }
+    }
+
+    /// The share of what is met that the walk may count, where it has been looked for with a density from the last point.
+    fn shared(&self, looked: impl Fn(DVec3) -> f64) -> f64 {
+        match self.since {
+            Since::Scattered(origin, density) => density / (density + looked(origin)),
+            _ => 1.0,
+        }
+    }
+
+    /// Whether light may be scattered once more after so many more times.
+    fn may_scatter(&self, more: u32) -> bool {
+        self.limit.is_none_or(|limit| self.scattered + more < limit)
+    }
+
     fn look_for_lamps(
         &mut self,
         position: DVec3,
         leave: &dyn Fn(DVec3) -> DVec3,
         scatters: &dyn Fn(DVec3) -> (Bands, f64),
     ) {
-        let found = self.world.look_for_lamps(position, leave, scatters, self.dice);
+        let place = Looking { position, leave, scatters, glow: self.may_scatter(1) };
+        let found = self.world.look_for_lamps(&place, self.dice);
         self.found += self.share * found;
     }
 }
@@ -289,53 +315,5 @@ fn passed(water: &Water, length: f64) -> Bands {
             let flies = left.mean();
             if flies > 0.0 { left * (1.0 / flies) } else { Bands::ZERO }
         }
-    }
-}
-
-/// With which probability each of several lamps is looked for.
-fn asked(lamps: usize) -> f64 {
-    if lamps <= FEW { 1.0 } else { 1.0 / lamps as f64 }
-}
-
-impl World {
-    /// Light of the lamps that gets to a point straight, off a water surface or through one, weighed with `scatters`: what of irradiance
-    /// facing a direction counts, and the density with which the walk goes there itself.
-    pub(crate) fn look_for_lamps(
-        &self,
-        position: DVec3,
-        leave: &dyn Fn(DVec3) -> DVec3,
-        scatters: &dyn Fn(DVec3) -> (Bands, f64),
-        dice: &mut Dice,
-    ) -> Bands {
-        let count = self.lamps.len();
-        let asked = asked(count);
-        let from = if asked < 1.0 { dice.below(count) } else { 0 };
-        let lamps = &self.lamps[from..if asked < 1.0 { from + 1 } else { count }];
-        let mut sum = Bands::ZERO;
-        for lamp in lamps {
-            if let Some(way) =
-                lamp.draw(position, dice).and_then(|drawn| ways::straight(lamp, &drawn, position))
-            {
-                let (factor, density) = scatters(way.toward);
-                let light = way.irradiance * factor;
-                if !light.is_zero() {
-                    let met = lamp.met(&Line { origin: position, direction: way.toward });
-                    let weight =
-                        met.map_or(1.0, |(_, _, looked)| looked * asked / (looked * asked + density));
-                    sum += light * self.arrives(&way, leave(way.toward)) * weight;
-                }
-            }
-            for water in &self.waters {
-                let Some(drawn) = lamp.draw_any(position, dice) else { continue };
-                let mirrored = ways::mirrored(water, lamp, &drawn, position);
-                for way in mirrored.into_iter().chain(ways::refracted(water, lamp, &drawn, position)) {
-                    let light = way.irradiance * scatters(way.toward).0;
-                    if !light.is_zero() {
-                        sum += light * self.arrives(&way, leave(way.toward));
-                    }
-                }
-            }
-        }
-        sum * (1.0 / asked)
     }
 }

@@ -8,6 +8,8 @@ use light::Geometry;
 use crate::bands::Bands;
 use crate::boundary::Boundary;
 use crate::glass;
+use crate::glow::Glow;
+use crate::heaven::Heaven;
 use crate::lamp::Lamp;
 use crate::shape::{Face, Shape};
 use crate::surface::Surface;
@@ -37,7 +39,8 @@ pub struct World {
     pub(crate) shape: Shape,
     pub(crate) surfaces: Vec<(Surface, Boundary)>,
     pub(crate) lamps: Vec<Lamp>,
-    pub(crate) sky: Option<Sky>,
+    pub(crate) sky: Option<Heaven>,
+    pub(crate) glow: Option<Glow>,
     pub(crate) waters: Vec<Water>,
 }
 
@@ -53,8 +56,10 @@ impl World {
             let boundary = boundary(&surface);
             (surface, boundary)
         });
-        let surfaces = surfaces.collect();
-        Self { shape, surfaces, lamps: parts.lamps, sky: parts.sky, waters: parts.waters }
+        let (surfaces, sky) = (surfaces.collect(), parts.sky.map(Heaven::new));
+        let mut world = Self { shape, surfaces, lamps: parts.lamps, sky, glow: None, waters: parts.waters };
+        world.glow = Glow::new(&world.shape, |instance| world.surface(instance).0.brightness());
+        world
     }
 
     /// What an instance's faces are made of.
