@@ -38,7 +38,8 @@ fn show(what: &str, all: &[([f64; 2], Judged)]) {
 
 /// A scene of `scenes/` with no more than `most` sensor points, spread over all.
 fn thinned(text: &str, most: usize) -> Scene {
-    let mut scene = scene::parse(text, Path::new("../scenes"), Path::new("test.toml")).expect("a sound scene");
+    let mut scene =
+        scene::parse(text, Path::new("../scenes"), Path::new("test.toml")).expect("a sound scene");
     let count: usize = scene.sensors.iter().map(|sensor| sensor.points.len()).sum();
     let step = count.div_ceil(most);
     let mut number = 0;

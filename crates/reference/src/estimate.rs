@@ -16,10 +16,9 @@ use crate::world::World;
 pub struct Effort {
     /// Walks for each sensor or pixel, ≥ 1; errors fall with their root.
     pub samples: u32,
-    /// How often light may be scattered after it has left its source and before it arrives, 0 being straight light alone; none = as
-    /// often as it is. Mirrors, glass and water surfaces do not count, flights in water do; light that a face emits has been sent by a face
-    /// once, as if it had been scattered there.
-    pub scattered: Option<u32>,
+    /// How many faces may send light on after it has left its source and before it arrives, 0 being the light of lamps and sky alone; none = as
+    /// many as do. Mirrors, glass and water surfaces do not count, nor does water that scatters; a face that emits light sends it.
+    pub faces: Option<u32>,
     /// Decides every random number: two of the same seed are the same to the bit.
     pub seed: u64,
 }
@@ -122,13 +121,12 @@ fn received(world: &World, at: DVec3, normal: DVec3, effort: &Effort, sample: u6
         let cos = toward.dot(normal).max(0.0);
         (Bands::splat(cos), cos * FRAC_1_PI)
     };
-    let place =
-        Looking { position: at, leave: &|_| at, scatters: &receives, glow: effort.scattered != Some(0) };
+    let place = Looking { position: at, leave: &|_| at, scatters: &receives, glow: effort.faces != Some(0) };
     let lamps = world.look_for_lamps(&place, &mut dice);
     let toward = dice.cosine(normal);
     let since = Since::Scattered(at, receives(toward).1);
     let line = Line { origin: at, direction: toward };
-    lamps + Walk::new(world, line, since, effort.scattered, &mut dice).radiance() * PI
+    lamps + Walk::new(world, line, since, effort.faces, &mut dice).radiance() * PI
 }
 
 /// The picture that an eye sees: each pixel the mean over its square.
@@ -155,7 +153,7 @@ fn seen(world: &World, view: &View, pixel: u64, effort: &Effort) -> Estimate {
         let (eye, direction) = view.line(corner + DVec2::from(dice.pair()));
         let origin = eye + direction * (view.near / direction.dot(forward));
         let line = Line { origin, direction };
-        sums.add(Walk::new(world, line, Since::Eye, effort.scattered, &mut dice).radiance());
+        sums.add(Walk::new(world, line, Since::Eye, effort.faces, &mut dice).radiance());
     }
     sums.estimate()
 }

@@ -33,7 +33,7 @@
 //! // A sun straight above, nothing else.
 //! let sun = Lamp::Sun { toward: DVec3::Y, radius: 0.00465, irradiance: Bands::ONE };
 //! let world = World::new(Parts { lamps: vec![sun], ..Parts::default() });
-//! let effort = Effort { samples: 1000, scattered: None, seed: 1 };
+//! let effort = Effort { samples: 1000, faces: None, seed: 1 };
 //! let tilted = DVec3::new(0.6, 0.8, 0.0);
 //! let found = irradiance(&world, DVec3::ZERO, tilted, &effort);
 //! assert!((found.mean[0] - 0.8).abs() <= 4.0 * found.error[0]);

@@ -36,14 +36,15 @@ pub(crate) enum Since {
 pub(crate) struct Walk<'a> {
     pub(crate) world: &'a World,
     pub(crate) dice: &'a mut Dice,
-    /// How often light may be scattered on its way; none = as often as it is.
+    /// How many faces may send light to each other on its way; none = as many as do.
     pub(crate) limit: Option<u32>,
     pub(crate) line: Line,
     pub(crate) since: Since,
     found: Bands,
     /// What of radiance found from here on is added.
     share: Bands,
-    scattered: u32,
+    /// That have scattered it so far.
+    faces: u32,
     turns: u32,
     /// Absorption of the glass that it is in \[1/m\].
     glass: Bands,
@@ -58,7 +59,7 @@ impl<'a> Walk<'a> {
         dice: &'a mut Dice,
     ) -> Self {
         let (found, share, glass) = (Bands::ZERO, Bands::ONE, Bands::ZERO);
-        Self { world, dice, limit, line, since, found, share, scattered: 0, turns: 0, glass }
+        Self { world, dice, limit, line, since, found, share, faces: 0, turns: 0, glass }
     }
 
     /// Radiance that comes back along the line \[W m⁻² sr⁻¹ nm⁻¹\], right on average.
@@ -163,7 +164,7 @@ impl<'a> Walk<'a> {
         let density = (extinction * left).mean();
         let scattering = water.scattering();
         let arrived = self.line.at(flight);
-        if density <= 0.0 || !self.may_scatter(0) {
+        if density <= 0.0 {
             return false;
         }
         self.share *= left * (1.0 / density);
@@ -178,7 +179,7 @@ impl<'a> Walk<'a> {
                 (sum + *own * phase.value(cos), density + share * phase.density(cos))
             })
         };
-        self.look_for_lamps(arrived, &|_| arrived, &scatters);
+        self.look_for_lamps(arrived, &|_| arrived, &scatters, 0);
         let mut choice = self.dice.roll();
         let mut chosen = shares.len() - 1;
         for (i, share) in shares.iter().enumerate() {
@@ -191,7 +192,6 @@ impl<'a> Walk<'a> {
         let toward = water.scatterers[chosen].1.draw(along, self.dice);
         let (value, density) = scatters(toward);
         self.share *= value * (1.0 / density);
-        self.scattered += 1;
         self.line = Line { origin: arrived, direction: toward };
         self.since = Since::Scattered(arrived, density);
         true
@@ -223,7 +223,7 @@ impl<'a> Walk<'a> {
     /// At a face of a thing.
     fn thing(&mut self, instance: u32, point: &Point) -> bool {
         let (surface, boundary) = self.world.surface(instance);
-        if self.may_scatter(0) {
+        if self.may_send(0) {
             self.glow(surface, point);
         }
         if let Some(body) = &surface.body {
@@ -245,17 +245,17 @@ impl<'a> Walk<'a> {
                 Turn::Matt => {}
             }
         }
-        if !self.may_scatter(0) {
+        if !self.may_send(0) {
             return false;
         }
         let local = Local::new(surface, boundary, point);
         let out = -self.line.direction;
         let shape = &self.world.shape;
         let leave = |toward: DVec3| shape.leave(point, toward).origin;
-        self.look_for_lamps(point.position, &leave, &|toward| local.evaluate(out, toward));
+        self.look_for_lamps(point.position, &leave, &|toward| local.evaluate(out, toward), 1);
         let Some(look) = local.look(out, self.dice) else { return false };
         self.share *= look.weight;
-        self.scattered += 1;
+        self.faces += 1;
         self.line = self.world.shape.leave(point, look.toward);
         self.since = match look.density {
             Some(density) => Since::Scattered(self.line.origin, density),
@@ -289,9 +289,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether light may be scattered once more after so many more times.
-    fn may_scatter(&self, more: u32) -> bool {
-        self.limit.is_none_or(|limit| self.scattered + more < limit)
+    /// Whether a face may send light that so many more faces scatter before what the walk has found already.
+    fn may_send(&self, more: u32) -> bool {
+        self.limit.is_none_or(|limit| self.faces + more < limit)
     }
 
     fn look_for_lamps(
@@ -299,8 +299,9 @@ impl<'a> Walk<'a> {
         position: DVec3,
         leave: &dyn Fn(DVec3) -> DVec3,
         scatters: &dyn Fn(DVec3) -> (Bands, f64),
+        faces: u32,
     ) {
-        let place = Looking { position, leave, scatters, glow: self.may_scatter(1) };
+        let place = Looking { position, leave, scatters, glow: self.may_send(faces) };
         let found = self.world.look_for_lamps(&place, self.dice);
         self.found += self.share * found;
     }

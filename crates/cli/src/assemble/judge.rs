@@ -36,8 +36,8 @@ pub struct Judge {
     world: World,
     /// What it does not see as the scene has it, in words; empty = it sees all of it.
     pub omitted: Vec<String>,
-    /// How often light is scattered between source and sensor: where the plan has no interreflection, never.
-    scattered: Option<u32>,
+    /// How many faces send light on between source and sensor: where the plan has no interreflection, none.
+    faces: Option<u32>,
 }
 
 impl Judge {
@@ -54,8 +54,8 @@ impl Judge {
             sky: sky(plan, scene),
             waters: scene.waters.iter().map(water).collect::<Result<_, Error>>()?,
         };
-        let scattered = (!interreflection::asked(settings)).then_some(0);
-        Ok(Self { world: World::new(parts), omitted: omitted(plan, scene), scattered })
+        let faces = (!interreflection::asked(settings)).then_some(0);
+        Ok(Self { world: World::new(parts), omitted: omitted(plan, scene), faces })
     }
 
     /// Illuminance at every sensor point of the scene, in order: by light that faces reflect only if the plan has it.
@@ -65,7 +65,7 @@ impl Judge {
             for point in &sensor.points {
                 // Every point has numbers of its own.
                 let seed = walks.seed.wrapping_mul(0x9E37_79B9).wrapping_add(answers.len() as u64);
-                let effort = Effort { samples: walks.samples, scattered: self.scattered, seed };
+                let effort = Effort { samples: walks.samples, faces: self.faces, seed };
                 let found =
                     reference::irradiance(&self.world, off(*point, sensor.normal), sensor.normal, &effort);
                 answers.push(Judged { value: found.luminance, error: found.luminance_error });
@@ -80,9 +80,9 @@ impl Judge {
     /// A camera that the scene does not have.
     pub fn picture(&self, plan: &Plan, scene: &Scene, walks: &Walks) -> Result<(Film, Vec<f64>), Error> {
         let view = super::view(plan, scene)?;
-        // What a face sends to the eye has been scattered once more than what arrives at a sensor there.
-        let scattered = self.scattered.map(|scattered| scattered + 1);
-        let effort = Effort { samples: walks.samples, scattered, seed: walks.seed };
+        // The face that is seen sends it on, too.
+        let faces = self.faces.map(|faces| faces + 1);
+        let effort = Effort { samples: walks.samples, faces, seed: walks.seed };
         let picture = reference::picture(&self.world, &view, &effort);
         Ok((picture.film, picture.errors))
     }

@@ -8,7 +8,7 @@ use light::{Geometry, Instance, Mesh, Spectrum};
 
 /// Walks for each number, without limit.
 pub(crate) fn effort(samples: u32, seed: u64) -> Effort {
-    Effort { samples, scattered: None, seed }
+    Effort { samples, faces: None, seed }
 }
 
 /// A light of luminance 1.

@@ -126,28 +126,44 @@ fn water_that_only_scatters_cannot_be_seen_in_even_light() {
     agrees("milk", &found, PI, 1e-4);
 }
 
-/// One scattering of a sun straight above by thin fog of thickness d over a plane: closed form, isotropic.
+/// A layer that scatters alike to all sides and takes nothing, 1 m thick and without end.
+fn fog(b: f64) -> World {
+    let mut world = parts(&[], Vec::new());
+    world.lamps.push(Lamp::Sun { toward: UP, radius: 0.0, irradiance: white() * 1000.0 });
+    let scatterers = vec![(Bands::splat(b), Phase::new(|_| 0.25 / PI))];
+    world.waters.push(Water { index: 1.0, scatterers, ..clear(1e5) });
+    // Black below, where the layer ends.
+    let mut black = parts(&[level(-1.0, 2e5, 0)], vec![Surface::grey(0.0)]);
+    (black.lamps, black.waters) = (world.lamps, world.waters);
+    World::new(black)
+}
+
 #[test]
 fn thin_fog_scatters_once_what_the_closed_form_says() {
-    // E_once = E₀ b ∫₀^d e^(−b (d − z)) ½ E₂(b z) dz; for b d = τ ≪ 1: E₀ ½ τ (1 + …). Midpoints over z, and over μ in E₂(x) = ∫₀¹ e^(−x/μ) dμ.
-    let (b, depth, steps) = (0.2, 1.0, 2000);
+    // E_once = E₀ b ∫₀^d e^(−b (d − z)) ½ E₂(b z) dz, midpoints over z, and over μ in E₂(x) = ∫₀¹ e^(−x/μ) dμ.
+    let (b, steps) = (0.02, 2000);
     let h = 1.0 / f64::from(steps);
     let middle = |i: i32| (f64::from(i) + 0.5) * h;
     let e2 = |x: f64| (0..steps).map(|j| (-x / middle(j)).exp() * h).sum::<f64>();
     let once: f64 = (0..200)
-        .map(|i| (f64::from(i) + 0.5) / 200.0 * depth)
-        .map(|z| b * (-b * (depth - z)).exp() * 0.5 * e2(b * z) * depth / 200.0)
+        .map(|i| (f64::from(i) + 0.5) / 200.0)
+        .map(|z| b * (-b * (1.0 - z)).exp() * 0.5 * e2(b * z) / 200.0)
         .sum();
-    let straight = (-b * depth).exp();
-    let mut world = parts(&[], Vec::new());
-    world.lamps.push(Lamp::Sun { toward: UP, radius: 0.0, irradiance: white() * 1000.0 });
-    world.waters.push(Water {
-        index: 1.0,
-        scatterers: vec![(Bands::splat(b), Phase::new(|_| 0.25 / PI))],
-        ..clear(1e4)
-    });
-    let effort = keikan_reference::Effort { scattered: Some(1), ..effort(40_000, 6) };
-    let found = irradiance(&World::new(world), DVec3::Y * -depth, UP, &effort);
-    // From a plane at depth d all of the layer above it is seen: ½ E₂ takes what is scattered downwards.
-    agrees("fog", &found, 1000.0 * (straight + once), 0.05);
+    let straight = (-b as f64).exp();
+    let found = irradiance(&fog(b), DVec3::Y * (1e-9 - 1.0), UP, &effort(100_000, 6));
+    // What is scattered twice is of the order of b ln(1/b) times what is scattered once, a tenth.
+    agrees("fog", &found, 1000.0 * (straight + once), 1000.0 * once * b * 5.0);
+    assert!(found.luminance_error < 100.0 * once, "fine enough to see what is scattered at all");
+}
+
+#[test]
+fn thick_fog_loses_nothing() {
+    let world = fog(3.0);
+    let below = irradiance(&world, DVec3::Y * (1e-9 - 1.0), UP, &effort(40_000, 7));
+    let above = irradiance(&world, DVec3::Y * 1e-6, DVec3::NEG_Y, &effort(40_000, 8));
+    let (sum, error) =
+        (below.luminance + above.luminance, below.luminance_error.hypot(above.luminance_error));
+    println!("thick fog: {} through, {} back, ± {error}", below.luminance, above.luminance);
+    // Its ends are 10⁵ thicknesses away.
+    assert!((sum - 1000.0).abs() < 4.0 * error + 0.1 && error < 20.0, "{sum} ± {error}");
 }
