@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::bands::Bands;
 use crate::dice::Dice;
-use crate::shape::{Face, Point, Shape};
+use crate::shape::{Met, Point, Shape};
 use crate::surface::Surface;
 use crate::tree::{Line, Meeting};
 
@@ -28,8 +28,8 @@ impl Glow {
     /// None where no face shines.
     pub(crate) fn new(shape: &Shape, surface: impl Fn(u32) -> f64) -> Option<Self> {
         let mut sum = 0.0;
-        let shining = shape.things().filter_map(|(triangle, instance)| {
-            let own = surface(instance) * 0.5 * shape.cross(triangle).length();
+        let shining = shape.things().filter_map(|(triangle, number)| {
+            let own = surface(number) * 0.5 * shape.cross(triangle).length();
             (own > 0.0).then(|| {
                 sum += own;
                 (triangle, sum)
@@ -59,11 +59,11 @@ impl Glow {
         let to = shape.position(&meeting) - from;
         let length = to.length();
         let toward = to.try_normalize()?;
-        let point = shape.point(&Line { origin: from, direction: toward }, &meeting);
-        let Face::Thing { instance, .. } = point.face else { return None };
-        let surface = surface(instance);
+        let met = Met::Triangle(meeting);
+        let point = shape.point(&Line { origin: from, direction: toward }, &met);
+        let surface = surface(point.surface);
         let density = self.density(surface, &point, toward, length);
-        let radiance = surface.emitted(&point) * shape.opacity(&meeting);
+        let radiance = surface.emitted(&point) * shape.opacity(&met);
         (density.is_finite()).then_some(Shining { toward, length, radiance, density })
     }
 

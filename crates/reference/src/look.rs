@@ -88,7 +88,7 @@ impl World {
 
     fn look_at_faces(&self, place: &Looking, dice: &mut Dice) -> Bands {
         let Some(glow) = self.glow.as_ref().filter(|_| place.glow) else { return Bands::ZERO };
-        let surface = |instance: u32| &self.surface(instance).0;
+        let surface = |number: u32| &self.surface(number).0;
         let Some(shining) = glow.draw(&self.shape, surface, place.position, dice) else { return Bands::ZERO };
         let (factor, density) = (place.scatters)(shining.toward);
         let light = shining.radiance * factor * (1.0 / (shining.density + density));

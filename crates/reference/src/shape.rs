@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use light::{Geometry, Instance, Mesh, Opacity};
 
+use crate::solid::{End, Solid};
 use crate::tree::{Line, Meeting, Tree};
 use crate::water::Water;
 
@@ -13,6 +14,8 @@ use crate::water::Water;
 pub(crate) enum Face {
     /// Triangle of an instance.
     Thing { instance: u32, triangle: u32 },
+    /// A curved body.
+    Solid,
     /// The surface of a water.
     Surface(usize),
     /// The side of a water, where it ends without a surface: light passes it straight.
@@ -32,6 +35,26 @@ pub(crate) struct Point {
     pub(crate) front: bool,
     pub(crate) uv: DVec2,
     pub(crate) colour: Vec3,
+    /// Number of its surface; of a water's, nothing.
+    pub(crate) surface: u32,
+    /// How far off it a line begins \[m\].
+    off: f64,
+}
+
+/// What a line meets.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Met {
+    Triangle(Meeting),
+    Solid(End),
+}
+
+impl Met {
+    pub(crate) fn distance(&self) -> f64 {
+        match self {
+            Self::Triangle(meeting) => meeting.distance,
+            Self::Solid(end) => end.distance,
+        }
+    }
 }
 
 /// Faces made ready for lines.
@@ -41,19 +64,22 @@ pub(crate) struct Shape {
     faces: Vec<Face>,
     tree: Tree,
     sides: Tree,
+    solids: Vec<Solid>,
     /// How far a line begins beyond the face that it leaves \[m\]: many times what points are off by in f64, far less than anything is thick.
     pub(crate) off: f64,
     /// Ways to lamps end so far before them \[m\]: a lamp, rounded to f32, may lie behind the face that it is set into.
     pub(crate) before: f64,
 }
 
+/// Likewise for curved bodies, whose borders are found as roots \[m\].
+const OFF_SOLID: f64 = 1e-7;
 /// Share of the largest coordinate.
 const OFF: f64 = 1e-12;
 /// Likewise: 16 roundings of f32.
 const BEFORE: f64 = 1e-6;
 
 impl Shape {
-    pub(crate) fn new(geometry: Arc<Geometry>, waters: &[Water]) -> Self {
+    pub(crate) fn new(geometry: Arc<Geometry>, solids: Vec<Solid>, waters: &[Water]) -> Self {
         let (mut faces, mut triangles, mut sides) = (Vec::new(), Vec::new(), Vec::new());
         for (i, instance) in geometry.instances.iter().enumerate() {
             for t in 0..geometry.meshes[instance.mesh as usize].triangles.len() {
@@ -80,30 +106,41 @@ impl Shape {
         faces.resize(faces.len() + sides.len(), Face::Side);
         let tree = Tree::new(triangles);
         let reach = tree.bounds().map_or(1.0, |(low, high)| low.abs().max(high.abs()).max_element()).max(1.0);
-        Self { geometry, faces, tree, sides: Tree::new(sides), off: OFF * reach, before: BEFORE * reach }
+        Self {
+            geometry,
+            faces,
+            tree,
+            sides: Tree::new(sides),
+            solids,
+            off: OFF * reach,
+            before: BEFORE * reach,
+        }
     }
 
     /// What a line meets first, before `length`. A side of a water within a wall is not met: whoever passes it would be beyond the wall.
-    pub(crate) fn nearest(&self, line: &Line, length: f64) -> Option<Meeting> {
+    pub(crate) fn nearest(&self, line: &Line, length: f64) -> Option<Met> {
         let first = self.tree.nearest(line, length);
-        let before = first.map_or(length, |meeting| meeting.distance - 4.0 * self.off);
+        let mut reach = first.map_or(length, |meeting| meeting.distance);
+        let mut met = first.map(Met::Triangle);
+        for solid in &self.solids {
+            if let Some(end) = solid.first(line, 0.0, reach) {
+                (reach, met) = (end.distance, Some(Met::Solid(end)));
+            }
+        }
+        let before = if met.is_some() { reach - 4.0 * self.off } else { reach };
         let side = self.sides.nearest(line, before);
         let side = side.map(|side| Meeting { triangle: side.triangle + self.tree.len() as u32, ..side });
-        side.or(first)
+        side.map(Met::Triangle).or(met)
     }
 
-    pub(crate) fn face(&self, meeting: &Meeting) -> Face {
-        self.faces[meeting.triangle as usize]
-    }
-
-    pub(crate) fn mesh(&self, instance: u32) -> &Mesh {
+    fn mesh(&self, instance: u32) -> &Mesh {
         &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize]
     }
 
-    /// Triangles of things, and their instances.
+    /// Triangles of things, and the numbers of their surfaces.
     pub(crate) fn things(&self) -> impl Iterator<Item = (u32, u32)> {
         self.faces.iter().enumerate().filter_map(|(i, face)| match face {
-            Face::Thing { instance, .. } => Some((i as u32, *instance)),
+            Face::Thing { instance, .. } => Some((i as u32, self.mesh(*instance).material)),
             _ => None,
         })
     }
@@ -120,9 +157,20 @@ impl Shape {
         a * (1.0 - v - w) + b * v + c * w
     }
 
-    /// All that is known of where `line` meets a face.
-    pub(crate) fn point(&self, line: &Line, meeting: &Meeting) -> Point {
-        let face = self.face(meeting);
+    /// All that is known of where `line` meets something.
+    pub(crate) fn point(&self, line: &Line, met: &Met) -> Point {
+        let meeting = match met {
+            Met::Triangle(meeting) => meeting,
+            Met::Solid(end) => {
+                let (position, surface) = (line.at(end.distance), end.surface);
+                return Point {
+                    surface,
+                    off: OFF_SOLID,
+                    ..self.plain(Face::Solid, line, position, end.normal)
+                };
+            }
+        };
+        let face = self.faces[meeting.triangle as usize];
         let corners = match face {
             Face::Side => self.sides.triangle(meeting.triangle - self.tree.len() as u32),
             _ => self.tree.triangle(meeting.triangle),
@@ -130,39 +178,35 @@ impl Shape {
         let [v, w] = meeting.weights;
         let weights = [1.0 - v - w, v, w];
         let position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-        let mut outward = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
+        let outward = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
         let Face::Thing { instance, triangle } = face else {
-            let front = outward.dot(line.direction) <= 0.0;
-            let normal = if front { outward } else { -outward };
-            return Point {
-                face,
-                position,
-                normal,
-                smooth: normal,
-                front,
-                uv: DVec2::ZERO,
-                colour: Vec3::ONE,
-            };
+            return self.plain(face, line, position, outward);
         };
         let placed = &self.geometry.instances[instance as usize];
-        if placed.world_from_mesh.matrix3.determinant() < 0.0 {
-            outward = -outward;
-        }
-        let front = outward.dot(line.direction) <= 0.0;
-        let normal = if front { outward } else { -outward };
+        let turn = if placed.world_from_mesh.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
+        let plain = self.plain(face, line, position, outward * turn);
         let mesh = self.mesh(instance);
         let ends = mesh.triangles[triangle as usize].map(|i| i as usize);
         let colour = match mesh.colours.is_empty() {
             true => Vec3::ONE,
             false => (0..3).map(|k| mesh.colours[ends[k]] * weights[k] as f32).sum(),
         };
-        let (smooth, uv) = (smooth(mesh, placed, ends, weights, normal), uv(mesh, ends, weights));
-        Point { face, position, normal, smooth, front, uv, colour }
+        let smooth = smooth(mesh, placed, ends, weights, plain.normal);
+        Point { smooth, uv: uv(mesh, ends, weights), colour, surface: mesh.material, ..plain }
     }
 
-    /// How much of the face is there where a line meets it, within \[0, 1\].
-    pub(crate) fn opacity(&self, meeting: &Meeting) -> f64 {
-        let Face::Thing { instance, triangle } = self.face(meeting) else { return 1.0 };
+    /// A point without more than a position and a normal outwards.
+    fn plain(&self, face: Face, line: &Line, position: DVec3, outward: DVec3) -> Point {
+        let front = outward.dot(line.direction) <= 0.0;
+        let normal = if front { outward } else { -outward };
+        let (uv, colour, surface, off) = (DVec2::ZERO, Vec3::ONE, u32::MAX, self.off);
+        Point { face, position, normal, smooth: normal, front, uv, colour, surface, off }
+    }
+
+    /// How much is there where a line meets something, within \[0, 1\].
+    pub(crate) fn opacity(&self, met: &Met) -> f64 {
+        let Met::Triangle(meeting) = met else { return 1.0 };
+        let Face::Thing { instance, triangle } = self.faces[meeting.triangle as usize] else { return 1.0 };
         let mesh = self.mesh(instance);
         let Some(opacity) = &mesh.opacity else { return 1.0 };
         let [v, w] = meeting.weights;
@@ -173,7 +217,7 @@ impl Shape {
     /// Where a line goes on from `point` along `direction`.
     pub(crate) fn leave(&self, point: &Point, direction: DVec3) -> Line {
         let side = if direction.dot(point.normal) < 0.0 { -point.normal } else { point.normal };
-        Line { origin: point.position + side * self.off, direction }
+        Line { origin: point.position + side * point.off, direction }
     }
 }
 

@@ -71,7 +71,7 @@ impl<'a> Walk<'a> {
     /// Goes to what is met next; false where the walk ends.
     fn step(&mut self) -> bool {
         let meeting = self.world.shape.nearest(&self.line, f64::INFINITY);
-        let far = meeting.map_or(f64::INFINITY, |meeting| meeting.distance);
+        let far = meeting.map_or(f64::INFINITY, |met| met.distance());
         let water = self.world.water_along(&self.line, far);
         let flight = water.and_then(|water| self.flight(water)).filter(|flight| *flight < far);
         self.lamps_along(flight.unwrap_or(far), water);
@@ -92,11 +92,11 @@ impl<'a> Walk<'a> {
         match point.face {
             Face::Side => self.pass(&point),
             Face::Surface(number) => self.surface(number, &point),
-            Face::Thing { instance, .. } => {
+            Face::Thing { .. } | Face::Solid => {
                 let opacity = self.world.shape.opacity(&meeting);
                 match opacity < 1.0 && self.dice.roll() >= opacity {
                     true => self.pass(&point),
-                    false => self.thing(instance, &point),
+                    false => self.thing(&point),
                 }
             }
         }
@@ -221,8 +221,8 @@ impl<'a> Walk<'a> {
     }
 
     /// At a face of a thing.
-    fn thing(&mut self, instance: u32, point: &Point) -> bool {
-        let (surface, boundary) = self.world.surface(instance);
+    fn thing(&mut self, point: &Point) -> bool {
+        let (surface, boundary) = self.world.surface(point.surface);
         if self.may_send(0) {
             self.glow(surface, point);
         }
@@ -273,12 +273,18 @@ impl<'a> Walk<'a> {
     /// What a face emits, as far as nobody has looked for it yet.
     fn glow(&mut self, surface: &Surface, point: &Point) {
         let emitted = surface.emitted(point);
-        if let (false, Some(glow)) = (emitted.is_zero(), &self.world.glow) {
-            let toward = self.line.direction;
-            let weight =
-                self.shared(|origin| glow.density(surface, point, toward, origin.distance(point.position)));
-            self.found += self.share * emitted * weight;
+        if emitted.is_zero() {
+            return;
         }
+        let toward = self.line.direction;
+        let weight = match &self.world.glow {
+            // Nobody looks for bodies that shine.
+            Some(glow) if point.face != Face::Solid => {
+                self.shared(|origin| glow.density(surface, point, toward, origin.distance(point.position)))
+            }
+            _ => 1.0,
+        };
+        self.found += self.share * emitted * weight;
     }
 
     /// The share of what is met that the walk may count, where it has been looked for with a density from the last point.

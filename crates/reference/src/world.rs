@@ -12,6 +12,7 @@ use crate::glow::Glow;
 use crate::heaven::Heaven;
 use crate::lamp::Lamp;
 use crate::shape::{Face, Shape};
+use crate::solid::Solid;
 use crate::surface::Surface;
 use crate::tree::Line;
 use crate::water::Water;
@@ -24,7 +25,9 @@ pub type Sky = Box<dyn Fn(DVec3) -> Bands + Send + Sync>;
 pub struct Parts {
     /// All triangles.
     pub geometry: Arc<Geometry>,
-    /// By the numbers that meshes carry; what has none is black.
+    /// Curved bodies.
+    pub solids: Vec<Solid>,
+    /// By the numbers that meshes and solids carry; what has none is black.
     pub surfaces: Vec<Surface>,
     /// Everything that is not found by looking into all directions.
     pub lamps: Vec<Lamp>,
@@ -50,7 +53,7 @@ const BLACK: f32 = 0.0;
 impl World {
     /// Of these parts.
     pub fn new(parts: Parts) -> Self {
-        let shape = Shape::new(parts.geometry, &parts.waters);
+        let shape = Shape::new(parts.geometry, parts.solids, &parts.waters);
         let surfaces = parts.surfaces.into_iter().chain([Surface::grey(BLACK)]);
         let surfaces = surfaces.map(|surface| {
             let boundary = boundary(&surface);
@@ -58,14 +61,13 @@ impl World {
         });
         let (surfaces, sky) = (surfaces.collect(), parts.sky.map(Heaven::new));
         let mut world = Self { shape, surfaces, lamps: parts.lamps, sky, glow: None, waters: parts.waters };
-        world.glow = Glow::new(&world.shape, |instance| world.surface(instance).0.brightness());
+        world.glow = Glow::new(&world.shape, |number| world.surface(number).0.brightness());
         world
     }
 
-    /// What an instance's faces are made of.
-    pub(crate) fn surface(&self, instance: u32) -> &(Surface, Boundary) {
-        let material = self.shape.mesh(instance).material as usize;
-        &self.surfaces[material.min(self.surfaces.len() - 1)]
+    /// The surface of that number.
+    pub(crate) fn surface(&self, number: u32) -> &(Surface, Boundary) {
+        &self.surfaces[(number as usize).min(self.surfaces.len() - 1)]
     }
 
     /// The water that a point is in: of several above each other the one that it is least deep in.
@@ -88,21 +90,20 @@ impl World {
         let (mut share, mut line, mut left) = (Bands::ONE, line, length);
         loop {
             let meeting = self.shape.nearest(&line, left);
-            let far = meeting.map_or(left, |meeting| meeting.distance);
+            let far = meeting.map_or(left, |met| met.distance());
             if let Some(water) = self.water_along(&line, far) {
                 share *= water.extinction().attenuate(far);
             }
-            let Some(meeting) = meeting else { return share };
-            match self.shape.face(&meeting) {
+            let Some(met) = meeting else { return share };
+            let point = self.shape.point(&line, &met);
+            match point.face {
                 Face::Surface(_) => return Bands::ZERO,
                 Face::Side => {}
-                Face::Thing { instance, .. } => {
-                    let opacity = self.shape.opacity(&meeting);
-                    let (surface, _) = self.surface(instance);
-                    let there = match surface.body {
-                        Some(body) if body.thin => {
-                            glass::pane(surface, &body, &self.shape.point(&line, &meeting), line.direction)
-                        }
+                Face::Thing { .. } | Face::Solid => {
+                    let opacity = self.shape.opacity(&met);
+                    let surface = &self.surface(point.surface).0;
+                    let there = match &surface.body {
+                        Some(body) if body.thin => glass::pane(surface, body, &point, line.direction),
                         _ => Bands::ZERO,
                     };
                     share *= there * opacity + Bands::splat(1.0 - opacity);
@@ -111,7 +112,6 @@ impl World {
                     }
                 }
             }
-            let point = self.shape.point(&line, &meeting);
             line = self.shape.leave(&point, line.direction);
             left -= far;
         }

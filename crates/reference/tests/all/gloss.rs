@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use keikan_reference::{Surface, World, radiance};
 use light::Medium;
 
-use crate::support::{block, effort, even, level, parts};
+use crate::support::{block, even, level, parts};
 
 /// Mean luminance and its standard error along a line.
 fn seen(world: &World, from: DVec3, toward: DVec3, walks: u64) -> [f64; 2] {
@@ -65,5 +65,24 @@ fn glass_takes_by_beer_and_fresnel() {
     let (r, left) = (0.04f64, (-1.0f64).exp());
     let truth = (1.0 - r).powi(2) * left / (1.0 - (r * left).powi(2));
     assert!((mean - truth).abs() < 4.0 * error + 1e-5, "{mean} ± {error}, {truth}");
-    let _ = effort;
+}
+
+#[test]
+fn a_ball_of_glass_cannot_be_seen_in_even_light_and_a_grey_one_lights_as_its_faces() {
+    use glam::DAffine3;
+    use keikan_reference::{Convex, Solid};
+    let ball = |surface| Solid::Shape {
+        shape: Convex::Sphere,
+        world_from_solid: DAffine3::from_translation(DVec3::Y * 2.0),
+        surface,
+    };
+    let body = Medium { index: 1.5, ..Medium::default() };
+    let surfaces = vec![Surface { body: Some(body), ..Surface::default() }, Surface::grey(0.4)];
+    for (surface, truth) in [(0, 1.0), (1, 0.4)] {
+        let mut world = parts(&[], surfaces.clone());
+        world.solids.push(ball(surface));
+        world.sky = Some(even(1.0));
+        let [mean, error] = seen(&World::new(world), DVec3::new(0.1, 5.0, 0.4), DVec3::NEG_Y, 8000);
+        assert!((mean - truth).abs() < 4.0 * error + 1e-6, "{surface}: {mean} {error}");
+    }
 }
