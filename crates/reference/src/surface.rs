@@ -53,6 +53,8 @@ pub struct Surface {
     pub diffuse_transmission_colour: Vec3,
     /// What fills the body behind the face, if light passes it; its boundary is smooth then, whatever the roughness.
     pub body: Option<Medium>,
+    /// Its emission is what the eye sees straight of a lamp at the same place: it lights nothing besides.
+    pub shown_only: bool,
 }
 
 impl Default for Surface {
@@ -70,6 +72,7 @@ impl Default for Surface {
             diffuse_transmission: 0.0,
             diffuse_transmission_colour: Vec3::ONE,
             body: None,
+            shown_only: false,
         }
     }
 }
@@ -96,6 +99,9 @@ impl Surface {
 
     /// Luminance that it emits at most, whatever its texture says \[cd/m²\].
     pub(crate) fn brightness(&self) -> f64 {
+        if self.shown_only {
+            return 0.0;
+        }
         f64::from(self.emission.max(Vec3::ZERO).dot(LUMINANCE))
     }
 

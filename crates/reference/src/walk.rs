@@ -273,7 +273,7 @@ impl<'a> Walk<'a> {
     /// What a face emits, as far as nobody has looked for it yet.
     fn glow(&mut self, surface: &Surface, point: &Point) {
         let emitted = surface.emitted(point);
-        if emitted.is_zero() {
+        if emitted.is_zero() || (surface.shown_only && !matches!(self.since, Since::Eye)) {
             return;
         }
         let toward = self.line.direction;

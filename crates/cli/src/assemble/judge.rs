@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3};
 use light::{AreaShape, Film, Illuminate, Ray, rounding};
-use reference::{Bands, Effort, Image, Lamp, Parts, Phase, Sky, Surface, World};
-use scene::{Material, Scene, UvTransform};
+use reference::{Bands, Convex, Effort, Image, Lamp, Parts, Phase, Sky, Solid, Surface, World};
+use scene::{Material, Scene, SolidNode, SolidShape, UvTransform};
 use sky::{Description, Dome};
 
 use super::qualities::of_scene as quality;
-use super::{heavens, interreflection, lights, materials};
+use super::{heavens, interreflection, lights, materials, solids};
 use crate::Error;
 use crate::plan::Plan;
 
@@ -47,9 +47,15 @@ impl Judge {
     /// A water that there is not.
     pub fn new(plan: &Plan, scene: &Scene) -> Result<Self, Error> {
         let settings = &plan.settings;
+        let mut surfaces: Vec<Surface> = scene.materials.iter().map(surface).collect();
+        for lamp in &scene.area_lights {
+            let face = lamp.face.and_then(|face| surfaces.get_mut(face as usize));
+            face.into_iter().for_each(|face| face.shown_only = true);
+        }
         let parts = Parts {
             geometry: Arc::clone(&scene.geometry),
-            surfaces: scene.materials.iter().map(surface).collect(),
+            solids: bodies(scene, &mut surfaces),
+            surfaces,
             lamps: lamps(plan, scene),
             sky: sky(plan, scene),
             waters: scene.waters.iter().map(water).collect::<Result<_, Error>>()?,
@@ -108,6 +114,43 @@ fn surface(material: &Material) -> Surface {
         diffuse_transmission: f64::from(material.diffuse_transmission),
         diffuse_transmission_colour: material.diffuse_transmission_colour,
         body: material.medium(),
+        shown_only: false,
+    }
+}
+
+/// The solids of the scene; what they wear is added to `surfaces`: of transparent bodies a material of its own for each filling.
+fn bodies(scene: &Scene, surfaces: &mut Vec<Surface>) -> Vec<Solid> {
+    let body = |solid: &scene::Solid| body(scene, &solid.node, solids::filling(&solid.node), surfaces);
+    scene.solids.iter().map(body).collect()
+}
+
+fn body(scene: &Scene, node: &SolidNode, filling: u32, surfaces: &mut Vec<Surface>) -> Solid {
+    let mut all = |members: &[SolidNode]| -> Vec<Solid> {
+        members.iter().map(|member| body(scene, member, filling, surfaces)).collect()
+    };
+    match node {
+        SolidNode::Shape { shape, world_from_solid, material } => {
+            let [face, inside] = [*material, filling].map(|index| &scene.materials[index as usize]);
+            let number = surfaces.len() as u32;
+            surfaces.push(Surface { body: solids::medium(face, inside), ..surface(face) });
+            Solid::Shape { shape: convex(shape), world_from_solid: *world_from_solid, surface: number }
+        }
+        SolidNode::Union(members) => Solid::Union(all(members)),
+        SolidNode::Intersection(members) => Solid::Intersection(all(members)),
+        SolidNode::Difference(whole, cutters) => {
+            let cutters = all(cutters);
+            Solid::Difference(Box::new(body(scene, whole, filling, surfaces)), cutters)
+        }
+    }
+}
+
+fn convex(shape: &SolidShape) -> Convex {
+    match shape {
+        SolidShape::Sphere => Convex::Sphere,
+        SolidShape::Cylinder => Convex::Frustum { top: 1.0 },
+        SolidShape::Cone => Convex::Frustum { top: 0.0 },
+        SolidShape::Frustum { top } => Convex::Frustum { top: *top },
+        SolidShape::Polyhedron { planes, .. } => Convex::Polyhedron(planes.clone()),
     }
 }
 
@@ -183,7 +226,6 @@ fn omitted(plan: &Plan, scene: &Scene) -> Vec<String> {
     let bodies = || materials().filter(|material| material.medium().is_some());
     let trees: usize = scene.trees.iter().map(|trees| trees.placed.len()).sum();
     let trees = if settings.choice("trees") == "off" { 0 } else { trees };
-    say(scene.solids.len(), "[[solid]]: not there");
     say(trees, "trees: not there");
     let wavy = |water: &&scene::Water| !water.waves.each.is_empty() || water.waves.wind.is_some();
     say(scene.waters.iter().filter(wavy).count(), "waters with waves: level");

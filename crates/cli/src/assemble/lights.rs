@@ -86,7 +86,7 @@ pub(super) fn colour(spectrum: &LightSpectrum) -> Spectrum {
     match spectrum {
         LightSpectrum::Temperature(kelvin) => Spectrum::light_of_temperature(*kelvin),
         LightSpectrum::Rgb(rgb) => Spectrum::light_of_colour(*rgb),
-        LightSpectrum::Table(table) => Spectrum::light_of_table(table),
+        LightSpectrum::Table(table) => Spectrum::light_of_table(table).of_luminance(1.0),
     }
 }
 
