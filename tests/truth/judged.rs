@@ -6,7 +6,9 @@ use std::time::Instant;
 use keikan::args::View;
 use keikan::assemble::{Judge, Judged, Measuring, Walks};
 use keikan::lux;
+use keikan::pipeline::Monitor;
 use keikan::plan::Plan;
+use light::Film;
 use scene::Scene;
 
 /// Illuminance and its estimated error as `keikan lux` says it, and the judge's, at each sensor point.
@@ -98,6 +100,27 @@ fn a_lamp_that_is_seen_lights_once() {
         // The closed form in f32.
         agree("panel", &both(&thinned(text, 2), set, 4000), 1e-5);
     }
+}
+
+/// Luminance of a whole picture, all pixels together, of the stages' and of the judge.
+#[test]
+fn a_picture_of_a_courtyard_is_as_bright_as_the_judge_sees_it() {
+    let scene = thinned(COURTYARD, 1);
+    // Whoever looks at the judge's picture without interreflection sees no light of a ground that is not there.
+    let set = [OFF, ("sky.ground", "hidden"), ("sky.visibility", "rays"), ("sun.samples", "16")];
+    let (plan, pipeline) = keikan_tests::build(&scene, (48, 30), &set);
+    let film = pipeline.render(&plan.region, false, &Monitor::default()).expect("nobody interrupts");
+    let judge = Judge::new(&plan, &scene).expect("a world that can be");
+    let (judged, errors) = judge.picture(&plan, &scene, &Walks { samples: 64, seed: 1 }).expect("its camera");
+    let sum = |film: &Film| keikan_tests::luminances(film).iter().map(|&l| f64::from(l)).sum::<f64>();
+    let (ours, theirs) = (sum(&film), sum(&judged));
+    let error = errors.iter().map(|error| error * error).sum::<f64>().sqrt();
+    println!(
+        "picture: {ours:.0} here, {theirs:.0} ± {error:.0} by the judge: {:+.2} %",
+        100.0 * (ours / theirs - 1.0)
+    );
+    // What timber mirrors of the sky is taken evenly here, and pixels' sky from 64 rays.
+    assert!((ours / theirs - 1.0).abs() < 0.01 + 4.0 * error / theirs, "{ours} {theirs}");
 }
 
 #[test]

@@ -149,7 +149,7 @@ fn thin_fog_scatters_once_what_the_closed_form_says() {
         .map(|i| (f64::from(i) + 0.5) / 200.0)
         .map(|z| b * (-b * (1.0 - z)).exp() * 0.5 * e2(b * z) / 200.0)
         .sum();
-    let straight = (-b as f64).exp();
+    let straight = f64::exp(-b);
     let found = irradiance(&fog(b), DVec3::Y * (1e-9 - 1.0), UP, &effort(100_000, 6));
     // What is scattered twice is of the order of b ln(1/b) times what is scattered once, a tenth.
     agrees("fog", &found, 1000.0 * (straight + once), 1000.0 * once * b * 5.0);
