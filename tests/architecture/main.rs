@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const CHAPTERS: &[&str] = &["scanline", "raytrace", "radiosity", "water", "sky", "trees"];
+const CHAPTERS: &[&str] = &["scanline", "raytrace", "radiosity", "water", "sky", "trees", "reference"];
 const OURS: &[&str] =
-    &["light", "scene", "scanline", "raytrace", "radiosity", "water", "sky", "trees", "keikan"];
+    &["light", "scene", "scanline", "raytrace", "radiosity", "water", "sky", "trees", "reference", "keikan"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -99,3 +99,22 @@ fn the_picture_shows_the_luminance_of_those_lux() {
         assert!((f64::from(luminance) / truth - 1.0).abs() < 1e-3, "{column} {row}: {luminance} {truth}");
     }
 }
+
+/// The power of a table is relative: candelas say how much light there is, whatever its spectrum.
+#[test]
+fn a_table_of_a_spectrum_changes_the_colour_alone() {
+    let lit = |colour: &str| {
+        let text = format!(
+            "[sun]\noff = true\n[sky]\noff = true\n[[model]]\nplane = {{ size = [4, 4] }}\n[[light]]\nposition = [0, 2, 0]\n\
+             intensity = 100\n{colour}\n[[camera]]\nposition = [0, 3, 3]\ntarget = [0, 0, 0]\n[[sensor]]\npoints = [[0, 0, 0]]\n"
+        );
+        keikan_tests::lux(&text, &[])[0]
+    };
+    for spectrum in
+        ["[[585, 0], [589, 1], [593, 0]]", "[[400, 30], [500, 10], [700, 90]]", "[[546, 1e-6], [547, 1e-6]]"]
+    {
+        let found = lit(&format!("spectrum = {spectrum}"));
+        // 100 cd at 2 m; f32.
+        assert!((found / 25.0 - 1.0).abs() < 1e-5, "{spectrum}: {found}");
+    }
+}

@@ -10,6 +10,7 @@ mod determinism;
 mod furnace;
 mod furnace_solids;
 mod interreflection;
+mod judged;
 mod luminaires;
 mod night;
 mod open_sky;

@@ -92,6 +92,8 @@ pub struct AreaLight {
     pub luminance: f64,
     /// What colour.
     pub spectrum: LightSpectrum,
+    /// Index of the material whose face shows it: what that emits is the lamp's own light, not more of it. None where it is not seen.
+    pub face: Option<u32>,
 }
 
 /// The shape of a lamp with an extent.

@@ -82,11 +82,11 @@ pub(super) fn area(lamp: &scene::AreaLight, settings: &Settings) -> AreaLight {
 }
 
 /// A spectrum of luminance 1.
-fn colour(spectrum: &LightSpectrum) -> Spectrum {
+pub(super) fn colour(spectrum: &LightSpectrum) -> Spectrum {
     match spectrum {
         LightSpectrum::Temperature(kelvin) => Spectrum::light_of_temperature(*kelvin),
         LightSpectrum::Rgb(rgb) => Spectrum::light_of_colour(*rgb),
-        LightSpectrum::Table(table) => Spectrum::light_of_table(table),
+        LightSpectrum::Table(table) => Spectrum::light_of_table(table).of_luminance(1.0),
     }
 }
 

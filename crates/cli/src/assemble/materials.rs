@@ -53,7 +53,7 @@ fn finish(material: &Material) -> Finish {
 
 /// The index whose interface reflects `f0` head on: files state both, and the reflectance wins
 /// (KHR_materials_specular). n = (1 + √F₀)/(1 − √F₀).
-fn index(f0: f32) -> f32 {
+pub(super) fn index(f0: f32) -> f32 {
     let r = f0.clamp(0.0, 0.99).sqrt();
     (1.0 + r) / (1.0 - r)
 }

@@ -3,6 +3,7 @@
 mod banks;
 mod heavens;
 mod interreflection;
+mod judge;
 mod lights;
 mod maps;
 mod materials;
@@ -32,6 +33,7 @@ use waters::Waters;
 #[cfg(test)]
 pub(crate) use heavens::skies;
 pub(crate) use heavens::{lacks, place_of_sun};
+pub use judge::{Judge, Judged, Walks};
 pub(crate) use lights::outline;
 pub use maps::Maps;
 pub(crate) use materials::mirrors;

@@ -47,10 +47,14 @@ impl Dress {
     /// What light meets that passes the face: inside, what the filling says; at the face, what its own material
     /// lets through. None where either is opaque.
     fn medium(self, materials: &[Material]) -> Option<Medium> {
-        let inside = filled(&materials[self.filling as usize])?;
-        let face = filled(&materials[self.material as usize])?;
-        Some(Medium { index: inside.index, absorption: inside.absorption, ..face })
+        medium(&materials[self.material as usize], &materials[self.filling as usize])
     }
+}
+
+/// What light meets that passes a face of the material `face` of a body that is filled with `filling`; none where either is opaque.
+pub(super) fn medium(face: &Material, filling: &Material) -> Option<Medium> {
+    let (face, inside) = (filled(face)?, filled(filling)?);
+    Some(Medium { index: inside.index, absorption: inside.absorption, ..face })
 }
 
 /// All dresses of a scene's bodies, in order, and the number of the first one's shader.
@@ -119,7 +123,7 @@ fn filled(material: &Material) -> Option<Medium> {
 
 /// The material that says what fills a body of several: that of its first shape. Members of unions and
 /// intersections are filled alike ([`scene::load`] sees to it), and cutters fill nothing.
-fn filling(node: &SolidNode) -> u32 {
+pub(super) fn filling(node: &SolidNode) -> u32 {
     match node {
         SolidNode::Shape { material, .. } => *material,
         SolidNode::Union(members) | SolidNode::Intersection(members) => members.first().map_or(0, filling),

@@ -61,6 +61,7 @@ pub(crate) fn lamp(spot: &Spot<'_>, number: usize, table: &LightTable) -> Result
         shape,
         luminance: luminance(spot, table, shape.area())?,
         spectrum: spectrum.unwrap_or(LightSpectrum::Rgb(Vec3::ONE)),
+        face: None,
     }))
 }
 
@@ -87,11 +88,12 @@ fn luminance(spot: &Spot<'_>, table: &LightTable, area: f64) -> Result<f64, Erro
 }
 
 /// Adds the lamp, and the faces of a rectangle: one that emits, and a grey back, for it is not seen from behind.
-pub(crate) fn add(draft: &mut Draft, lamp: AreaLight) {
+pub(crate) fn add(draft: &mut Draft, mut lamp: AreaLight) {
     if let AreaShape::Rectangle { size: [width, height] } = lamp.shape {
         let (x, y) = (0.5 * width as f32, 0.5 * height as f32);
         let placement = DAffine3 { matrix3: lamp.world_from_light, translation: lamp.position };
         let material = draft.materials.len() as u32;
+        lamp.face = Some(material);
         draft.materials.push(Material {
             name: lamp.name.clone(),
             base_colour: Vec3::ZERO,

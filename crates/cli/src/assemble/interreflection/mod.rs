@@ -71,8 +71,14 @@ impl Linked {
         let parted = Arc::new(Parted::new(&scene.geometry, &scene.waters));
         let still = among.waters.map(|waters| Still(Arc::clone(waters)));
         let surfaces: Vec<Option<Surface>> = scene.materials.iter().map(materials::matt).collect();
-        let all =
-            Painted { geometry: &parted.geometry, surfaces: &surfaces, still: still.as_ref(), sides: None };
+        let lamps: Vec<u32> = scene.area_lights.iter().filter_map(|lamp| lamp.face).collect();
+        let all = Painted {
+            geometry: &parted.geometry,
+            surfaces: &surfaces,
+            still: still.as_ref(),
+            lamps: &lamps,
+            sides: None,
+        };
         let edge = settings.own_or("interreflection.patch").unwrap_or(0.0);
         let cut = Cut { edge, most: settings.integer("interreflection.patches") as usize };
         let tried = Patches::new(&parted.geometry, &all, &cut);

@@ -17,14 +17,19 @@ pub(super) struct Painted<'a> {
     /// By material; none where light passes, which nothing reflects diffusely.
     pub(super) surfaces: &'a [Option<Surface>],
     pub(super) still: Option<&'a Still>,
+    /// Materials whose faces show lamps, which shine by themselves.
+    pub(super) lamps: &'a [u32],
     /// None = all.
     pub(super) sides: Option<&'a Sides>,
 }
 
 impl Painted<'_> {
+    fn material(&self, instance: u32) -> u32 {
+        self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize].material
+    }
+
     fn surface(&self, instance: u32) -> Option<&Surface> {
-        let mesh = &self.geometry.meshes[self.geometry.instances[instance as usize].mesh as usize];
-        self.surfaces.get(mesh.material as usize)?.as_ref()
+        self.surfaces.get(self.material(instance) as usize)?.as_ref()
     }
 
     /// The mean of `of` over three points of a patch, textures read about each of them; times how much of the face is there.
@@ -47,8 +52,11 @@ impl Painted<'_> {
         sum * (1.0 / 3.0)
     }
 
-    /// Exitance of its own \[W m⁻² nm⁻¹\].
+    /// Exitance of its own \[W m⁻² nm⁻¹\], that of lamps left out.
     pub(super) fn emitted(&self, patch: &Patch) -> Spectrum {
+        if self.lamps.contains(&self.material(patch.face[0])) {
+            return Spectrum::ZERO;
+        }
         self.mean(patch, |surface, hit| surface.emitted(hit)) * std::f32::consts::PI
     }
 }
