@@ -300,7 +300,7 @@ fn trees_on_the_ground_keep_out_of_a_pond_and_stay_where_there_is_no_ground() {
     let places = "positions = [[-9, 5, 0], [3, 5, 1], [1, 5, 1], [60, 5, 0]]\n";
     let on_ground = said(&format!("[[tree]]\nspecies = 'small'\nground = true\n{places}"));
     assert!(
-        on_ground.contains("2 would stand on the bed")
+        on_ground.contains("2 would stand in a [[water]]")
             && on_ground.contains("the first at [3.00, -2.00, 1.00]"),
         "{on_ground}"
     );
@@ -321,7 +321,7 @@ fn trees_on_the_ground_keep_out_of_a_pond_and_stay_where_there_is_no_ground() {
     assert!(!wading.contains("[[tree]]"), "{wading}");
     // None at all is no error.
     let none = said("[[tree]]\nspecies = 'small'\nground = true\nposition = [0, 0, 0]\n");
-    assert!(none.contains("1 would stand on the bed"), "{none}");
+    assert!(none.contains("1 would stand in a [[water]]"), "{none}");
 }
 
 #[test]

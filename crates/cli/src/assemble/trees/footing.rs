@@ -1,6 +1,6 @@
 //! Trees that stand on the ground: what is below each, and whether it is dry.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use light::{Nearest, Ray};
 use rayon::prelude::*;
 use scene::PlacedTree;
@@ -63,15 +63,20 @@ impl Ground<'_> {
 
     /// Where the vertical through a point first meets something from above.
     fn foot(self, at: Vec3, top: f32) -> Foot {
-        let Some(hit) = self.dry.nearest(&Ray::new(at.with_y(top), Vec3::NEG_Y)) else {
-            return Foot::Nowhere(at);
-        };
-        let foot = at.with_y(hit.place.position.y);
-        // A rounding above the bed of a puddle is no water.
-        let under = |water: &FlatWater| {
-            water.depth(foot.as_dvec3()).is_some_and(|depth| depth > f64::from(hit.place.error))
-        };
-        if self.waters.iter().any(under) { Foot::Under(foot) } else { Foot::On(foot) }
+        let covers = |water: &FlatWater| water.covers(DVec2::new(f64::from(at.x), f64::from(at.z)));
+        match self.dry.nearest(&Ray::new(at.with_y(top), Vec3::NEG_Y)) {
+            Some(hit) => {
+                let foot = at.with_y(hit.place.position.y);
+                // A rounding above the bed of a puddle is no water.
+                let under = |water: &FlatWater| {
+                    water.depth(foot.as_dvec3()).is_some_and(|depth| depth > f64::from(hit.place.error))
+                };
+                if self.waters.iter().any(under) { Foot::Under(foot) } else { Foot::On(foot) }
+            }
+            // A sea without a bed.
+            None if self.waters.iter().any(covers) => Foot::Under(at),
+            None => Foot::Nowhere(at),
+        }
     }
 }
 
@@ -86,7 +91,7 @@ impl Footing {
             ))
         };
         [
-            say(self.drowned, "would stand on the bed of a [[water]] and are left out"),
+            say(self.drowned, "would stand in a [[water]] and are left out"),
             say(self.floating, "have nothing below or above them and stay at the height of their positions"),
         ]
         .into_iter()
