@@ -155,6 +155,12 @@ fn a_model_without_leaves_is_wood_and_what_is_no_model_is_named() {
     done(&folder, &bare);
     let output = keikan(&folder, &["tree", "bake", "bare.glb", "--rows", "64", "-o", "again"]);
     assert!(output.status.success() && text(&output.stderr).contains("no material counts as leaves"));
+    let large = ["tree", "bake", "bare.glb", "--rows", "4096", "--planes", "64", "-o", "none"];
+    let said = refused(&folder, &large);
+    assert!(
+        said.contains("bare.glb") && said.contains("GB are possible") && !folder.join("none").exists(),
+        "{said}"
+    );
     fs::write(folder.join("text.glb"), "no model").unwrap();
     let said = refused(&folder, &["tree", "bake", "text.glb", "-o", "none"]);
     assert!(said.contains("text.glb") && !folder.join("none").exists(), "{said}");

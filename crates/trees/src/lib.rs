@@ -54,7 +54,7 @@ mod species;
 mod stand;
 mod tree_mesh;
 
-pub use bake::{Bake, BakeError, TRANSMITTANCE, bake};
+pub use bake::{Bake, BakeError, MOST_BYTES, TRANSMITTANCE, bake};
 pub use envelope::Envelope;
 pub use grow::{Form, Growth, grow};
 pub use leaf::{Crossing, Shading};
