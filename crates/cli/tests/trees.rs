@@ -347,3 +347,31 @@ fn skies_that_know_nothing_of_trees_say_so() {
     write(&folder, "");
     assert!(!warned(&["sky.visibility=bands"]));
 }
+
+#[test]
+fn a_crown_may_be_named_by_its_shape() {
+    let folder = folder("shape");
+    grow(&folder, "small");
+    let table = folder.join("small/tree.toml");
+    let text = fs::read_to_string(&table).unwrap();
+    let line = text.lines().find(|line| line.starts_with("envelope")).unwrap();
+    let shape =
+        |shape: &str| fs::write(&table, text.replace(line, &format!("envelope = {shape}"))).unwrap();
+    write(&folder, "[[tree]]\nspecies = 'small'\nposition = [0, 0, 0]\n");
+    render(&folder, "fitted.exr", &[]);
+    shape("{ shape = 'ellipsoid', base = 3, radius = 4 }");
+    render(&folder, "ellipsoid.exr", &[]);
+    // Leaves face otherwise and stand at other depths; silhouette and colours are the same.
+    let off = difference(&folder, "fitted.exr", "ellipsoid.exr");
+    assert!(off > 1e-4 && off < 0.1, "{off}");
+    for (text, expected) in [
+        ("{ shape = 'pencil', base = 3, top = 2, radius = 4 }", "base below top"),
+        ("{ shape = 'inverted-cone', base = 3, radius = 0 }", "above 0"),
+        ("{ shape = 'cube', base = 3, radius = 1 }", "inverted-cone"),
+        ("{ shape = 'ellipsoid', base = 3, top = 300, radius = 1 }", "envelope"),
+    ] {
+        shape(text);
+        let said = refused(&folder, &["render", "a.toml", "-o", "a.png"]);
+        assert!(said.contains("small") && said.contains(expected), "{text}: {said}");
+    }
+}

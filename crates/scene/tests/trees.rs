@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use keikan_scene::{Error, PicturedTree, PlacedTree, Scene, TreePicture, TreeSpecies, parse, species_folder};
+use keikan_scene::{
+    CrownShape, Error, PicturedTree, PlacedTree, Scene, ShapedEnvelope, TreeEnvelope, TreePicture,
+    TreeSpecies, parse, species_folder,
+};
 
 /// One table, read in a folder of the test's own.
 fn read_in(folder: &Path, table: &str) -> Result<Scene, Error> {
@@ -272,7 +275,7 @@ fn species() -> PicturedTree {
         height: 8.0,
         half_width: 2.0,
         pictures: vec![(None, picture(8, vec![255; 32])), (Some(5.25), picture(4, Vec::new()))],
-        envelope: vec![[2.0, 1.0], [8.0, 0.5]],
+        envelope: TreeEnvelope::Knots(vec![[2.0, 1.0], [8.0, 0.5]]),
         leaf: 0.1,
         reflectance: Some([0.05; 8]),
         transmittance: [0.04; 8],
@@ -300,6 +303,39 @@ fn a_folder_holds_a_species() {
         let TreeSpecies::Pictured(found) = &scene.trees[0].species else { panic!("{name} is no folder") };
         assert!(found.name.ends_with("oak"));
         assert_eq!(PicturedTree { name: String::new(), ..(**found).clone() }, species());
+    }
+}
+
+#[test]
+fn a_crown_has_knots_or_the_name_of_a_shape() {
+    let folder = folder("shapes");
+    std::fs::create_dir(folder.join("oak")).unwrap();
+    let table = folder.join("oak").join("tree.toml");
+    let read = || read_in(&folder, "species = 'oak'\nposition = [0, 0, 0]");
+    for (text, shape) in [
+        ("{ shape = 'ellipsoid', base = 2, top = 7.5, radius = 1.5 }", CrownShape::Ellipsoid),
+        ("{ shape = 'pencil', base = 2, top = 7.5, radius = 1.5 }", CrownShape::Pencil),
+        ("{ shape = 'inverted-cone', base = 2, top = 7.5, radius = 1.5 }", CrownShape::InvertedCone),
+    ] {
+        let shaped = ShapedEnvelope { shape, base: 2.0, top: Some(7.5), radius: 1.5 };
+        write(&folder.join("oak"), &species());
+        let written = std::fs::read_to_string(&table).unwrap();
+        let line = written.lines().find(|line| line.starts_with("envelope")).unwrap();
+        std::fs::write(&table, written.replace(line, &format!("envelope = {text}"))).unwrap();
+        let scene = read().unwrap();
+        let TreeSpecies::Pictured(found) = &scene.trees[0].species else { panic!("no folder") };
+        assert_eq!(found.envelope, TreeEnvelope::Shape(shaped));
+        // And back.
+        write(&folder.join("oak"), found);
+        let scene = read().unwrap();
+        let TreeSpecies::Pictured(again) = &scene.trees[0].species else { panic!("no folder") };
+        assert_eq!(again.envelope, found.envelope);
+    }
+    let written = std::fs::read_to_string(&table).unwrap();
+    for (from, to) in [("inverted-cone", "cube"), ("radius = 1.5", "radius = 1.5\ncolour = 7")] {
+        std::fs::write(&table, written.replace(from, to)).unwrap();
+        let said = message(read());
+        assert!(said.contains("tree.toml") && said.contains("\"ellipsoid\", \"pencil\""), "{to}: {said}");
     }
 }
 
