@@ -355,8 +355,7 @@ fn a_crown_may_be_named_by_its_shape() {
     let table = folder.join("small/tree.toml");
     let text = fs::read_to_string(&table).unwrap();
     let line = text.lines().find(|line| line.starts_with("envelope")).unwrap();
-    let shape =
-        |shape: &str| fs::write(&table, text.replace(line, &format!("envelope = {shape}"))).unwrap();
+    let shape = |shape: &str| fs::write(&table, text.replace(line, &format!("envelope = {shape}"))).unwrap();
     write(&folder, "[[tree]]\nspecies = 'small'\nposition = [0, 0, 0]\n");
     render(&folder, "fitted.exr", &[]);
     shape("{ shape = 'ellipsoid', base = 3, radius = 4 }");

@@ -98,31 +98,10 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
         return Err(BakeError::NotFinite);
     }
     let leaves = Leaves::of(tree).ok_or(BakeError::Empty)?;
-    let (height, radius) = leaves.reach;
-    let texel = height / bake.rows as f32;
-    // A whole number of texels on each side of the axis, and one that stays clear.
-    let columns = (2 * ((radius / texel).ceil() as u32 + 1)).min(WIDEST);
-    let texels = u64::from(columns) * (u64::from(bake.rows) + u64::from(columns) * u64::from(bake.planes));
-    if texels * BYTES_A_TEXEL > MOST_BYTES {
-        return Err(BakeError::Memory(texels * BYTES_A_TEXEL));
-    }
-    let half_width = (0.5 * columns as f32 * texel).max(1.02 * radius);
-    let frame = Frame {
-        right: Vec3::X,
-        down: Vec3::NEG_Y,
-        corner: Vec2::new(-half_width, -height),
-        texel: Vec2::new(2.0 * half_width / columns as f32, texel),
-        size: [columns, bake.rows],
-    };
+    let (height, _) = leaves.reach;
+    let (half_width, frame, from_above) = frames(leaves.reach, bake)?;
     let everything = [f32::NEG_INFINITY, f32::INFINITY];
     let side = raster(tree, &frame, bake.samples, everything).ok_or(BakeError::Size)?;
-    let from_above = Frame {
-        down: Vec3::Z,
-        corner: Vec2::splat(-half_width),
-        texel: Vec2::splat(2.0 * half_width / columns as f32),
-        size: [columns; 2],
-        ..frame
-    };
     let slices = leaves
         .layers(bake.planes)
         .into_iter()
@@ -155,6 +134,33 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
     .map_err(BakeError::Species)?;
     let shelter = shelter::fitted(tree, &species);
     Ok(species.sheltered(shelter))
+}
+
+/// Half the width of all pictures \[m\], and the planes of the side view and of those from above, for a tree of that height and radius.
+fn frames((height, radius): (f32, f32), bake: &Bake) -> Result<(f32, Frame, Frame), BakeError> {
+    let texel = height / bake.rows as f32;
+    // A whole number of texels on each side of the axis, and one that stays clear.
+    let columns = (2 * ((radius / texel).ceil() as u32 + 1)).min(WIDEST);
+    let texels = u64::from(columns) * (u64::from(bake.rows) + u64::from(columns) * u64::from(bake.planes));
+    if texels * BYTES_A_TEXEL > MOST_BYTES {
+        return Err(BakeError::Memory(texels * BYTES_A_TEXEL));
+    }
+    let half_width = (0.5 * columns as f32 * texel).max(1.02 * radius);
+    let side = Frame {
+        right: Vec3::X,
+        down: Vec3::NEG_Y,
+        corner: Vec2::new(-half_width, -height),
+        texel: Vec2::new(2.0 * half_width / columns as f32, texel),
+        size: [columns, bake.rows],
+    };
+    let from_above = Frame {
+        down: Vec3::Z,
+        corner: Vec2::splat(-half_width),
+        texel: Vec2::splat(2.0 * half_width / columns as f32),
+        size: [columns; 2],
+        ..side
+    };
+    Ok((half_width, side, from_above))
 }
 
 fn mean_reflectance(side: &Sheet) -> Spectrum {
