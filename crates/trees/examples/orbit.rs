@@ -1,6 +1,6 @@
 //! Whether anything jumps: an orbit of 360 frames round a tree, a rise, a day of 200 and a dusk, as planes and as mesh.
 //!
-//! `cargo run --release -p keikan-trees --example orbit [poplar|lime|zelkova|spruce]`
+//! `cargo run --release -p keikan-trees --example orbit [poplar|lime|zelkova|spruce [orbit|rise|day|dusk]]`
 //!
 //! For each frame the mean luminance and the mean share hidden over the picture; printed are the largest change from one
 //! frame to the next, over the mean, and the largest root mean square change of a pixel's luminance.
@@ -38,6 +38,7 @@ fn changes(name: &str, frames: &[Frame]) {
 
 fn main() {
     let wanted = std::env::args().nth(1).unwrap_or_else(|| "lime".to_owned());
+    let some = std::env::args().nth(2);
     let (_, growth) = growths().into_iter().find(|(name, _)| *name == wanted).expect("one of the four");
     let mesh = mesh(&growth);
     let reference = Reference::new(&mesh);
@@ -66,6 +67,9 @@ fn main() {
         ("day of 200 frames", &day),
         ("dusk by 0.1° steps", &dusk),
     ] {
+        if some.as_ref().is_some_and(|some| !name.starts_with(some)) {
+            continue;
+        }
         for turn in [Turn::WithEye, Turn::Fixed] {
             let stand = alone(species(&mesh, 4, 256), Setting { turn, ..Setting::default() });
             let stand = stand.with(Setting { turn, ..Setting::default() }, Shading::default());

@@ -6,7 +6,7 @@
 //!
 //! - `luminance`: mean of what shows, planes / mesh; `hidden`: share of the view, planes / mesh;
 //! - `alpha_rms`: root mean square difference of alpha over the tree's rectangle (silhouette);
-//! - `shadow_lx`, `shadow_lx_mesh`: mean illuminance by the sun where the mesh takes some of it from level ground, of 80 000 lx; the sun
+//! - `shadow_lx`, `shadow_lx_mesh`: mean illuminance by the sun where the mesh takes a tenth or more of it from level ground, of 80 000 lx; the sun
 //!   stands as high as the eye, 60° to its side, from 30° to 89°;
 //! - `sky_lx`, `sky_lx_mesh`: by a uniform sky within the crown's radius, of 20 000 lx;
 //! - `ms`, `ms_mesh`: of the processor for the picture, one ray a pixel for planes, 17 for the mesh; `bytes`: of the species.
@@ -129,22 +129,28 @@ fn by_planes(stand: &Stand, light: &Daylight, view: &View) -> Seen {
     seen(alpha, sum, of, start)
 }
 
-/// What is left of a distant source's light at each point of a grid on level ground that holds the whole shadow.
+/// What is left of a distant source's light on level ground, a grid that holds the whole shadow, as means over cells of 0.5 m to 1 m:
+/// the mesh's shadow at points is all or nothing.
 fn left(occlude: &dyn Occlude, toward: Vec3, height: f32, radius: f32) -> Vec<f32> {
-    const GRID: u32 = 160;
+    const CELLS: u32 = 20;
+    const POINTS: u32 = 8;
     let reach = radius + height / toward.y.tan().max(0.4);
     let level = Vec3::new(toward.x, 0.0, toward.z) * (-0.5 * height / toward.y);
-    let at = |i: u32| {
-        let [x, z] = [i % GRID, i / GRID].map(|k| (2.0 * (k as f32 + 0.5) / GRID as f32 - 1.0) * reach);
-        occlude.transmittance(&Ray::new(level + Vec3::new(x, 0.0, z), toward))[0]
+    let at = |i: u32, k: u32| {
+        let of = [(i % CELLS, k % POINTS), (i / CELLS, k / POINTS)].map(|(cell, point)| {
+            let share = (cell * POINTS + point) as f32 + 0.5;
+            (2.0 * share / (CELLS * POINTS) as f32 - 1.0) * reach
+        });
+        occlude.transmittance(&Ray::new(level + Vec3::new(of[0], 0.0, of[1]), toward))[0]
     };
-    (0..GRID * GRID).map(at).collect()
+    let mean = |i: u32| (0..POINTS * POINTS).map(|k| at(i, k)).sum::<f32>() / (POINTS * POINTS) as f32;
+    (0..CELLS * CELLS).map(mean).collect()
 }
 
-/// Mean illuminance in the mesh's shadow \[lx\].
+/// Mean illuminance in the mesh's shadow \[lx\]: where it takes a tenth or more.
 fn shadow(left: &[f32], mesh: &[f32]) -> f32 {
     let within: Vec<f32> =
-        left.iter().zip(mesh).filter(|(_, mesh)| **mesh < 1.0).map(|(left, _)| *left).collect();
+        left.iter().zip(mesh).filter(|(_, mesh)| **mesh < 0.9).map(|(left, _)| *left).collect();
     SUN * within.iter().sum::<f32>() / within.len().max(1) as f32
 }
 
