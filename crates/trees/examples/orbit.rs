@@ -53,9 +53,9 @@ fn main() {
         (0..360).map(|i| (view(f64::from(i).to_radians(), 0.35), afternoon)).collect();
     let rise: Vec<(View, Vec3)> =
         (0..180).map(|i| (view(0.4, f64::from(i) * 0.5f64.to_radians()), afternoon)).collect();
-    // From sunrise to sunset: the sun passes due east and due west, where it crosses the plane that faces the eye.
+    // From a degree above the horizon to a degree above it: the sun passes due east and due west, where it crosses the plane that faces the eye.
     let day: Vec<(View, Vec3)> =
-        (0..200).map(|i| (view(0.0, 0.2), midsummer(-108.0 + 216.0 * f64::from(i) / 199.0))).collect();
+        (0..200).map(|i| (view(0.0, 0.2), midsummer(-106.0 + 212.0 * f64::from(i) / 199.0))).collect();
     // Due west, from 3° below the horizon to 3° above it.
     let dusk: Vec<(View, Vec3)> = (0..61)
         .map(|i| (0.1 * f64::from(i) - 3.0).to_radians().sin_cos())
