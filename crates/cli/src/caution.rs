@@ -19,7 +19,21 @@ fn night(model: &str) -> f64 {
 
 /// All of them.
 pub(crate) fn warnings(scene: &Scene, settings: &Settings, shadows: &Shadows) -> Vec<String> {
-    [low_sun(scene, settings), overruled(scene, settings), shadows.warning()].into_iter().flatten().collect()
+    let all =
+        [low_sun(scene, settings), overruled(scene, settings), unshaded(scene, settings), shadows.warning()];
+    all.into_iter().flatten().collect()
+}
+
+/// A sky that trees do not hide.
+fn unshaded(scene: &Scene, settings: &Settings) -> Option<String> {
+    let there = scene.trees.iter().any(|trees| !trees.placed.is_empty());
+    let visibility = settings.sky_visibility();
+    let blind = matches!(visibility, "cuboid" | "bands") && sky_model(scene, settings) != "none";
+    (there && blind && settings.choice("trees") != "off" && settings.choice("shadows") != "off").then(|| {
+        format!(
+            "sky.visibility = {visibility} knows nothing of trees, which take none of the sky's light then: rays and patches know of them"
+        )
+    })
 }
 
 /// A sky of the day while the sun is down.

@@ -155,6 +155,12 @@ fn a_model_without_leaves_is_wood_and_what_is_no_model_is_named() {
     done(&folder, &bare);
     let output = keikan(&folder, &["tree", "bake", "bare.glb", "--rows", "64", "-o", "again"]);
     assert!(output.status.success() && text(&output.stderr).contains("no material counts as leaves"));
+    let large = ["tree", "bake", "bare.glb", "--rows", "4096", "--planes", "64", "-o", "none"];
+    let said = refused(&folder, &large);
+    assert!(
+        said.contains("bare.glb") && said.contains("GB are possible") && !folder.join("none").exists(),
+        "{said}"
+    );
     fs::write(folder.join("text.glb"), "no model").unwrap();
     let said = refused(&folder, &["tree", "bake", "text.glb", "-o", "none"]);
     assert!(said.contains("text.glb") && !folder.join("none").exists(), "{said}");
@@ -230,4 +236,141 @@ fn a_million_trees_at_one_point_are_one() {
     write(&folder, "[[tree]]\nspecies = 'small'\nrotation = 0\nposition = [0, 0, 0]\n");
     render(&folder, "one.exr", &[]);
     assert_eq!(difference(&folder, "many.exr", "one.exr"), 0.0);
+}
+
+#[test]
+fn a_million_trees_within_a_centimetre_are_one_and_a_row_stays_a_row() {
+    let folder = folder("crowd");
+    grow(&folder, "small");
+    let points: String = (0..1_000_000u32)
+        .map(|i| format!("{:.5},{:.5},0\n", f64::from(i % 1000) * 1e-5, f64::from(i / 1000) * 1e-5))
+        .collect();
+    fs::write(folder.join("points.csv"), points).unwrap();
+    let row = "[[tree]]\nspecies = 'small'\npositions = [[8, 0, 0], [8.5, 0, 0], [9, 0, 0]]\n";
+    write(&folder, &format!("{row}[[tree]]\nspecies = 'small'\nrotation = 0\nfile = 'points.csv'\n"));
+    let start = std::time::Instant::now();
+    let output =
+        keikan(&folder, &["render", "a.toml", "--size", "48x32", "--set", "sky.rays=8", "-o", "many.exr"]);
+    let said = text(&output.stderr);
+    assert!(output.status.success() && said.contains("999999 trees stand where another"), "{said}");
+    // A second or two; one by one, every ray would cross a million trees: hours.
+    assert!(start.elapsed().as_secs() < 60);
+}
+
+/// A pond of 8 by 8 m and 2 m deep in the middle of land at y = 0, on which `trees` are put by `more`.
+fn pond(folder: &Path, trees: &str) {
+    let land = "
+[sun]
+altitude = 45
+azimuth = 180
+[sky]
+model = 'uniform'
+illuminance = 10000
+[[model]]
+plane = { size = [8, 8] }
+position = [0, -2, 0]
+[[model]]
+polygon = { points = [[-20, 0, 20], [20, 0, 20], [20, 0, -20], [-20, 0, -20]], holes = [[[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]] }
+[[model]]
+box = { size = [8, 2, 0.1] }
+position = [0, -2, -4.05]
+[[model]]
+box = { size = [8, 2, 0.1] }
+position = [0, -2, 4.05]
+[[model]]
+box = { size = [0.1, 2, 8] }
+position = [-4.05, -2, 0]
+[[model]]
+box = { size = [0.1, 2, 8] }
+position = [4.05, -2, 0]
+[[water]]
+polygon = { points = [[-4, -0.2, 4], [4, -0.2, 4], [4, -0.2, -4], [-4, -0.2, -4]] }
+[[camera]]
+position = [0, 3, 24]
+target = [0, 2, 0]
+";
+    fs::write(folder.join("a.toml"), format!("{land}{trees}")).unwrap();
+}
+
+#[test]
+fn trees_on_the_ground_keep_out_of_a_pond_and_stay_where_there_is_no_ground() {
+    let folder = folder("pond");
+    grow(&folder, "small");
+    let said = |trees: &str| {
+        pond(&folder, trees);
+        let output =
+            keikan(&folder, &["render", "a.toml", "--size", "24x16", "--set", "sky.rays=4", "-o", "a.exr"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stderr)
+    };
+    let places = "positions = [[-9, 5, 0], [3, 5, 1], [1, 5, 1], [60, 5, 0]]\n";
+    let on_ground = said(&format!("[[tree]]\nspecies = 'small'\nground = true\n{places}"));
+    assert!(
+        on_ground.contains("2 would stand in a [[water]]")
+            && on_ground.contains("the first at [3.00, -2.00, 1.00]"),
+        "{on_ground}"
+    );
+    assert!(
+        on_ground.contains("1 have nothing below") && on_ground.contains("the first at [60.00, 5.00, 0.00]"),
+        "{on_ground}"
+    );
+    // Two stay: the picture is that of these two, each where it belongs.
+    let two = "[[tree]]\nspecies = 'small'\nrotation = 7\npositions = [[-9, 0, 0], [60, 5, 0]]\n";
+    let four = format!("[[tree]]\nspecies = 'small'\nrotation = 7\nground = true\n{places}");
+    said(&four);
+    fs::rename(folder.join("a.exr"), folder.join("four.exr")).unwrap();
+    let dry = said(two);
+    assert!(!dry.contains("[[tree]]"), "{dry}");
+    assert_eq!(difference(&folder, "a.exr", "four.exr"), 0.0);
+    // Who puts trees into water by their own heights may.
+    let wading = said("[[tree]]\nspecies = 'small'\npositions = [[3, -2, 1], [1, -2, 1]]\n");
+    assert!(!wading.contains("[[tree]]"), "{wading}");
+    // None at all is no error.
+    let none = said("[[tree]]\nspecies = 'small'\nground = true\nposition = [0, 0, 0]\n");
+    assert!(none.contains("1 would stand in a [[water]]"), "{none}");
+}
+
+#[test]
+fn skies_that_know_nothing_of_trees_say_so() {
+    let folder = folder("blind");
+    write(&folder, "[[tree]]\nspecies = 'poplar'\nposition = [0, 0, 0]\n");
+    let warned = |set: &[&str]| {
+        let set: Vec<_> = set.iter().flat_map(|knob| ["--set", knob]).collect();
+        let output = keikan(&folder, &[&["plan", "a.toml"][..], &set].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stderr).contains("knows nothing of trees")
+    };
+    assert!(warned(&["sky.visibility=cuboid"]) && warned(&["sky.visibility=bands"]));
+    assert!(!warned(&[]) && !warned(&["sky.visibility=patches"]) && !warned(&["sky.map=on"]));
+    assert!(!warned(&["sky.visibility=bands", "trees=off"]));
+    assert!(!warned(&["sky.visibility=bands", "sky.model=none"]));
+    write(&folder, "");
+    assert!(!warned(&["sky.visibility=bands"]));
+}
+
+#[test]
+fn a_crown_may_be_named_by_its_shape() {
+    let folder = folder("shape");
+    grow(&folder, "small");
+    let table = folder.join("small/tree.toml");
+    let text = fs::read_to_string(&table).unwrap();
+    let line = text.lines().find(|line| line.starts_with("envelope")).unwrap();
+    let shape = |shape: &str| fs::write(&table, text.replace(line, &format!("envelope = {shape}"))).unwrap();
+    write(&folder, "[[tree]]\nspecies = 'small'\nposition = [0, 0, 0]\n");
+    render(&folder, "fitted.exr", &[]);
+    shape("{ shape = 'ellipsoid', base = 3, radius = 4 }");
+    render(&folder, "ellipsoid.exr", &[]);
+    // Leaves face otherwise and stand at other depths; silhouette and colours are the same.
+    let off = difference(&folder, "fitted.exr", "ellipsoid.exr");
+    assert!(off > 1e-4 && off < 0.1, "{off}");
+    for (text, expected) in [
+        ("{ shape = 'pencil', base = 3, top = 2, radius = 4 }", "base below top"),
+        ("{ shape = 'inverted-cone', base = 3, radius = 0 }", "above 0"),
+        ("{ shape = 'cube', base = 3, radius = 1 }", "inverted-cone"),
+        ("{ shape = 'ellipsoid', base = 3, top = 300, radius = 1 }", "envelope"),
+    ] {
+        shape(text);
+        let said = refused(&folder, &["render", "a.toml", "-o", "a.png"]);
+        assert!(said.contains("small") && said.contains(expected), "{text}: {said}");
+    }
 }

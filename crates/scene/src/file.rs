@@ -22,7 +22,7 @@ pub(crate) use seen::{
     CameraTable, Ease, GridTable, KeyTable, LineTable, SensorTable, SiteTable, SkyTable, SunTable,
 };
 pub(crate) use solids::SolidTable;
-pub(crate) use tree::TreeTable;
+pub(crate) use tree::{Coordinates, TreeTable};
 pub(crate) use values::{Colour, Moment, OneOrThree, Setting};
 pub(crate) use water::{PhaseTable, WaterTable};
 pub(crate) use waves::{WaveTable, WindTable};

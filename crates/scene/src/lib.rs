@@ -52,7 +52,9 @@ pub use scene::*;
 pub use sky_table::SkyTable;
 pub use solid::{MAX_SOLID_DEPTH, Solid, SolidNode, SolidShape};
 pub use sun::SUN_DIAMETER;
-pub use tree::{PicturedTree, PlacedTree, TreePicture, TreeSpecies, Trees};
+pub use tree::{
+    CrownShape, PicturedTree, PlacedTree, ShapedEnvelope, TreeEnvelope, TreePicture, TreeSpecies, Trees,
+};
 pub use water::{MeasuredWater, Water, WaterPhase, WaterQuality};
 pub use waves::{SurfaceWaves, Wave, Wind};
 pub use weather::Weather;

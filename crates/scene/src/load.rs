@@ -133,9 +133,11 @@ fn place(root: &Spot<'_>, file: &SceneFile, draft: &mut Draft) -> Result<(), Err
     }
     let mut left = trees::MOST_TREES;
     for (i, table) in file.tree.iter().enumerate() {
-        let trees = trees::trees(&root.key("tree").index(i), table, left)?;
-        left -= trees.placed.len();
-        draft.trees.push(trees);
+        let site = file.site.is_some().then_some(&draft.site);
+        let spot = root.key("tree").index(i);
+        let trees = trees::trees(&spot, table, left, (site, &mut draft.warnings))?;
+        left -= trees.iter().map(|trees| trees.placed.len()).sum::<usize>();
+        draft.trees.extend(trees);
     }
     let mut left = eyes::MOST_POINTS;
     for (i, table) in file.sensor.iter().enumerate() {

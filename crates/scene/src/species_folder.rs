@@ -6,7 +6,7 @@ use image::{ImageFormat, ImageReader};
 use light::bands::BANDS;
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, PicturedTree, TreePicture, image_file, regular_file};
+use crate::{Error, PicturedTree, TreeEnvelope, TreePicture, image_file, regular_file};
 
 /// What the table of a species is called.
 pub const TABLE: &str = "tree.toml";
@@ -25,7 +25,7 @@ struct Table {
     half_width: f64,
     side: PathBuf,
     side_leaves: Option<PathBuf>,
-    envelope: Vec<[f64; 2]>,
+    envelope: TreeEnvelope,
     leaf: f64,
     reflectance: Option<[f64; BANDS]>,
     transmittance: [f64; BANDS],

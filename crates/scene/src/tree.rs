@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use light::bands::BANDS;
+use serde::{Deserialize, Serialize};
 
 /// Trees of one table, of one species.
 #[derive(Clone, Debug)]
@@ -49,8 +50,8 @@ pub struct PicturedTree {
     pub half_width: f64,
     /// Height of each picture's plane \[m\] (none = the side view, which is the first), and the picture.
     pub pictures: Vec<(Option<f64>, TreePicture)>,
-    /// Outline of the crown: (height, radius) \[m\].
-    pub envelope: Vec<[f64; 2]>,
+    /// Outline of the crown.
+    pub envelope: TreeEnvelope,
     /// Length of a leaf \[m\].
     pub leaf: f64,
     /// Mean reflectance of leaves per band; none = as pictured.
@@ -67,6 +68,45 @@ pub struct PicturedTree {
     pub shelter: f64,
     /// Decides everything random.
     pub seed: u32,
+}
+
+/// The outline of a crown, a surface of revolution.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(
+    untagged,
+    expecting = "envelope must be rows of [height, radius], or { shape = \"ellipsoid\", \"pencil\" or \"inverted-cone\", base, top, radius }"
+)]
+pub enum TreeEnvelope {
+    /// Through (height, radius) \[m\].
+    Knots(Vec<[f64; 2]>),
+    /// By the name of its shape.
+    Shape(ShapedEnvelope),
+}
+
+/// An outline by the name of its shape.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShapedEnvelope {
+    /// Its shape.
+    pub shape: CrownShape,
+    /// Height of its lowest point \[m\].
+    pub base: f64,
+    /// Height of its highest point \[m\]; none = as high as the tree.
+    pub top: Option<f64>,
+    /// Its largest radius \[m\].
+    pub radius: f64,
+}
+
+/// Shapes of crowns (thesis 5.3.1).
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CrownShape {
+    /// An ellipsoid about the axis.
+    Ellipsoid,
+    /// A column with a pointed top.
+    Pencil,
+    /// A cone that stands on its tip.
+    InvertedCone,
 }
 
 /// A picture of a tree without background.

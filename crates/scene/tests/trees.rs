@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use keikan_scene::{Error, PicturedTree, PlacedTree, Scene, TreePicture, TreeSpecies, parse, species_folder};
+use keikan_scene::{
+    CrownShape, Error, PicturedTree, PlacedTree, Scene, ShapedEnvelope, TreeEnvelope, TreePicture,
+    TreeSpecies, parse, species_folder,
+};
 
 /// One table, read in a folder of the test's own.
 fn read_in(folder: &Path, table: &str) -> Result<Scene, Error> {
@@ -70,6 +73,134 @@ fn positions_come_from_a_file() {
     assert_eq!(at, [DVec3::new(10.0, 1.5, -20.0), DVec3::new(12.0, 1.75, -24.0)]);
     let missing = message(read_in(&folder, "species = 'spruce'\nfile = 'none.csv'"));
     assert!(missing.contains("none.csv"), "{missing}");
+}
+
+/// A list of trees beside a scene, read with `more` in its table.
+fn list(name: &str, json: &str, (before, more): (&str, &str)) -> Result<Scene, Error> {
+    let folder = folder(name);
+    std::fs::write(folder.join("trees.geojson"), json).unwrap();
+    let text = format!("{before}\n[[tree]]\npoints = 'trees.geojson'\n{more}\n");
+    parse(&text, &folder, Path::new("a.toml"))
+}
+
+/// A collection of features.
+fn collection(features: &str) -> String {
+    format!("{{\"type\": \"FeatureCollection\", \"features\": [{features}]}}")
+}
+
+fn feature(geometry: &str, properties: &str) -> String {
+    format!("{{\"type\": \"Feature\", \"geometry\": {geometry}, \"properties\": {properties}}}")
+}
+
+fn point(coordinates: &str, properties: &str) -> String {
+    feature(&format!("{{\"type\": \"Point\", \"coordinates\": {coordinates}}}"), properties)
+}
+
+const SITE: &str = "[site]\nlatitude = 35\nlongitude = 139\nelevation = 40\n";
+
+#[test]
+fn a_list_of_trees_has_heights_species_and_rotations() {
+    let features = [
+        point("[10, 20, 1.5]", "{\"height\": 6, \"species\": \"poplar\", \"rotation\": 90, \"age\": [7]}"),
+        point("[12, 24]", "null"),
+        feature(
+            "{\"type\": \"MultiPoint\", \"coordinates\": [[1, 2], [3, 4, 5]]}",
+            "{\"species\": \"poplar\"}",
+        ),
+        feature("null", "{}"),
+    ];
+    let json = collection(&features.join(","));
+    let scene = list("list", &json, ("", "species = 'spruce'\nheight = 8\nground = true\nseed = 3")).unwrap();
+    assert_eq!(scene.trees.len(), 2);
+    let [poplars, spruces] = [&scene.trees[0], &scene.trees[1]];
+    assert!(matches!(&poplars.species, TreeSpecies::Named(name) if name == "poplar"));
+    assert!(matches!(&spruces.species, TreeSpecies::Named(name) if name == "spruce"));
+    assert!(poplars.on_ground && poplars.height == Some(8.0) && spruces.height == Some(8.0));
+    let at = |trees: &keikan_scene::Trees| trees.placed.iter().map(|tree| tree.position).collect::<Vec<_>>();
+    assert_eq!(
+        at(poplars),
+        [DVec3::new(10.0, 1.5, -20.0), DVec3::new(1.0, 0.0, -2.0), DVec3::new(3.0, 5.0, -4.0)]
+    );
+    assert_eq!(at(spruces), [DVec3::new(12.0, 0.0, -24.0)]);
+    assert_eq!((poplars.placed[0].scale, poplars.placed[1].scale), (0.75, 1.0));
+    assert_eq!(poplars.placed[0].rotation, std::f32::consts::FRAC_PI_2);
+    // Each of the others by its own.
+    assert!(poplars.placed[1].rotation != poplars.placed[2].rotation);
+    assert_eq!(scene.warnings.len(), 1);
+    assert!(scene.warnings[0].to_string().contains("1 features have no geometry"), "{}", scene.warnings[0]);
+    // A stated height is what it says, whatever is usual.
+    let scene = list("usual", &json, ("", "species = 'spruce'")).unwrap();
+    let first = &scene.trees[0];
+    assert_eq!(first.height.unwrap() * f64::from(first.placed[0].scale), 6.0);
+}
+
+#[test]
+fn coordinates_are_degrees_about_the_site_or_metres() {
+    let json = collection(&point("[139.001, 35.002, 52]", "{}"));
+    let at = |name: &str, json: &str, before: &str, more: &str| {
+        let scene = list(name, json, (before, &format!("species = 'spruce'\n{more}"))).unwrap();
+        scene.trees[0].placed[0].position + scene.origin
+    };
+    // 91.28 m and 110.94 m a thousandth of a degree at 35°; 40 m of elevation make 6 · 10⁻⁶ of it.
+    let found = at("degrees", &json, SITE, "");
+    assert!((found - DVec3::new(91.29, 12.0, -221.88)).length() < 0.02, "{found}");
+    assert_eq!(at("said", &json, SITE, "coordinates = 'degrees'"), found);
+    let metres = DVec3::new(139.001, 52.0, -35.002);
+    assert_eq!(at("no-site", &json, "", ""), metres);
+    assert_eq!(at("metres", &json, SITE, "coordinates = 'metres'"), metres);
+    let named = |name: &str| {
+        let crs = format!(
+            "\"crs\": {{\"type\": \"name\", \"properties\": {{\"name\": \"{name}\"}}}}, \"features\""
+        );
+        json.replace("\"features\"", &crs)
+    };
+    assert_eq!(at("projected", &named("urn:ogc:def:crs:EPSG::6677"), SITE, ""), metres);
+    assert_eq!(at("crs84", &named("urn:ogc:def:crs:OGC:1.3:CRS84"), SITE, ""), found);
+}
+
+#[test]
+fn a_list_that_cannot_be_meant_is_named_with_file_and_place() {
+    for (json, before, more, expected) in [
+        ("[1, 2", "", "", "trees.geojson: "),
+        ("{\"type\": \"Feature\"}", "", "", "trees.geojson: /type: \"Feature\" is no list"),
+        ("{\"features\": [7], \"type\": \"FeatureCollection\"}", "", "", "line 1 column"),
+        (&collection(&point("[1]", "{}")), "", "", "/features/0/geometry/coordinates: [1] is no point"),
+        (&collection(&point("[1, \"2\"]", "{}")), "", "", "coordinates: [1,\"2\"] is no point: two or three"),
+        (&collection(&point("[1, 1e99]", "{}")), "", "", "must be within"),
+        (
+            &collection(&feature("{\"type\": \"LineString\", \"coordinates\": [[1, 2], [3, 4]]}", "{}")),
+            "",
+            "",
+            "/features/0/geometry/type: \"LineString\" is not possible: a tree is a \"Point\"",
+        ),
+        (
+            &collection(&feature("{\"type\": \"MultiPoint\", \"coordinates\": [[1, 2], 3]}", "{}")),
+            "",
+            "",
+            "/features/0/geometry/coordinates/1: 3 is no point",
+        ),
+        (
+            &collection(&format!("{},{}", point("[1, 2]", "{}"), point("[1, 2]", "{\"height\": -3}"))),
+            "",
+            "",
+            "/features/1/properties/height: -3 is not possible: a number of metres within (0, 300]",
+        ),
+        (&collection(&point("[1, 2]", "{\"height\": \"tall\"}")), "", "", "height: \"tall\" is not possible"),
+        (&collection(&point("[1, 2]", "{\"rotation\": 1e9}")), "", "", "properties/rotation"),
+        (&collection(&point("[1, 2]", "{\"species\": 7}")), "", "", "species: 7 is not possible"),
+        (&collection(&point("[500, 2]", "{}")), SITE, "", "metres are possible with coordinates"),
+        (&collection(&point("[13, 52]", "{}")), SITE, "", "km from the [site]"),
+        (&collection(&point("[1, 2]", "{}")), "", "coordinates = 'degrees'", "need a [site]"),
+        (&collection(&point("[1, 2]", "{}")), "", "coordinates = 'feet'", "coordinates"),
+        (&collection(&point("[1, 2]", "{}")), "", "positions = [[1, 2, 3]]", "points"),
+    ] {
+        let said = message(list("bad", json, (before, &format!("species = 'spruce'\n{more}"))));
+        assert!(said.contains(expected), "{json} {more}: {said}");
+    }
+    let said = message(list("bad", &collection(&point("[1, 2]", "{}")), ("", "")));
+    assert!(said.contains("species"), "{said}");
+    let said = message(read("species = 'spruce'\nposition = [0, 0, 0]\ncoordinates = 'metres'"));
+    assert!(said.contains("GeoJSON"), "{said}");
 }
 
 const FIELD: &str = "polygon = { points = [[0, 2, 0], [40, 2, 0], [40, 2, 30], [0, 2, 30]], \
@@ -144,7 +275,7 @@ fn species() -> PicturedTree {
         height: 8.0,
         half_width: 2.0,
         pictures: vec![(None, picture(8, vec![255; 32])), (Some(5.25), picture(4, Vec::new()))],
-        envelope: vec![[2.0, 1.0], [8.0, 0.5]],
+        envelope: TreeEnvelope::Knots(vec![[2.0, 1.0], [8.0, 0.5]]),
         leaf: 0.1,
         reflectance: Some([0.05; 8]),
         transmittance: [0.04; 8],
@@ -172,6 +303,39 @@ fn a_folder_holds_a_species() {
         let TreeSpecies::Pictured(found) = &scene.trees[0].species else { panic!("{name} is no folder") };
         assert!(found.name.ends_with("oak"));
         assert_eq!(PicturedTree { name: String::new(), ..(**found).clone() }, species());
+    }
+}
+
+#[test]
+fn a_crown_has_knots_or_the_name_of_a_shape() {
+    let folder = folder("shapes");
+    std::fs::create_dir(folder.join("oak")).unwrap();
+    let table = folder.join("oak").join("tree.toml");
+    let read = || read_in(&folder, "species = 'oak'\nposition = [0, 0, 0]");
+    for (text, shape) in [
+        ("{ shape = 'ellipsoid', base = 2, top = 7.5, radius = 1.5 }", CrownShape::Ellipsoid),
+        ("{ shape = 'pencil', base = 2, top = 7.5, radius = 1.5 }", CrownShape::Pencil),
+        ("{ shape = 'inverted-cone', base = 2, top = 7.5, radius = 1.5 }", CrownShape::InvertedCone),
+    ] {
+        let shaped = ShapedEnvelope { shape, base: 2.0, top: Some(7.5), radius: 1.5 };
+        write(&folder.join("oak"), &species());
+        let written = std::fs::read_to_string(&table).unwrap();
+        let line = written.lines().find(|line| line.starts_with("envelope")).unwrap();
+        std::fs::write(&table, written.replace(line, &format!("envelope = {text}"))).unwrap();
+        let scene = read().unwrap();
+        let TreeSpecies::Pictured(found) = &scene.trees[0].species else { panic!("no folder") };
+        assert_eq!(found.envelope, TreeEnvelope::Shape(shaped));
+        // And back.
+        write(&folder.join("oak"), found);
+        let scene = read().unwrap();
+        let TreeSpecies::Pictured(again) = &scene.trees[0].species else { panic!("no folder") };
+        assert_eq!(again.envelope, found.envelope);
+    }
+    let written = std::fs::read_to_string(&table).unwrap();
+    for (from, to) in [("inverted-cone", "cube"), ("radius = 1.5", "radius = 1.5\ncolour = 7")] {
+        std::fs::write(&table, written.replace(from, to)).unwrap();
+        let said = message(read());
+        assert!(said.contains("tree.toml") && said.contains("\"ellipsoid\", \"pencil\""), "{to}: {said}");
     }
 }
 

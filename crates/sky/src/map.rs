@@ -20,7 +20,7 @@ use rayon::prelude::*;
 
 use crate::WholeSky;
 pub use kept::KeptError;
-pub use key::{Described, Key};
+pub use key::{Described, Fnv, Key};
 use point::Point;
 use seams::Seams;
 pub use settings::Settings;

@@ -1,6 +1,6 @@
-//! Whether anything jumps: an orbit of 360 frames round a tree and a day of 200, as planes and as mesh.
+//! Whether anything jumps: an orbit of 360 frames round a tree, a rise, a day of 200 and a dusk, as planes and as mesh.
 //!
-//! `cargo run --release -p keikan-trees --example orbit [poplar|lime|zelkova|spruce]`
+//! `cargo run --release -p keikan-trees --example orbit [poplar|lime|zelkova|spruce [orbit|rise|day|dusk]]`
 //!
 //! For each frame the mean luminance and the mean share hidden over the picture; printed are the largest change from one
 //! frame to the next, over the mean, and the largest root mean square change of a pixel's luminance.
@@ -38,27 +38,38 @@ fn changes(name: &str, frames: &[Frame]) {
 
 fn main() {
     let wanted = std::env::args().nth(1).unwrap_or_else(|| "lime".to_owned());
+    let some = std::env::args().nth(2);
     let (_, growth) = growths().into_iter().find(|(name, _)| *name == wanted).expect("one of the four");
     let mesh = mesh(&growth);
     let reference = Reference::new(&mesh);
     let h = f64::from(growth.height);
-    let sun = |hour: f64| {
-        let (sin, cos) = (std::f64::consts::PI * hour).sin_cos();
-        DVec3::new(-cos, 0.8 * sin + 0.02, 0.55).normalize().as_vec3()
-    };
+    let afternoon = midsummer(45.0);
     let view = |turn: f64, elevation: f64| {
         let back = DVec3::new(turn.sin() * elevation.cos(), elevation.sin(), turn.cos() * elevation.cos());
         let target = DVec3::Y * (0.5 * h);
         View::look_at(target + back * (2.2 * h), target, 30.0, SIDE, SIDE)
     };
     let orbit: Vec<(View, Vec3)> =
-        (0..360).map(|i| (view(f64::from(i).to_radians(), 0.35), sun(0.3))).collect();
+        (0..360).map(|i| (view(f64::from(i).to_radians(), 0.35), afternoon)).collect();
     let rise: Vec<(View, Vec3)> =
-        (0..180).map(|i| (view(0.4, f64::from(i) * 0.5f64.to_radians()), sun(0.3))).collect();
-    let day: Vec<(View, Vec3)> = (0..200).map(|i| (view(0.0, 0.2), sun(f64::from(i) / 199.0))).collect();
-    for (name, frames) in
-        [("orbit of 1° steps", &orbit), ("rise by 0.5° steps", &rise), ("day of 200 frames", &day)]
-    {
+        (0..180).map(|i| (view(0.4, f64::from(i) * 0.5f64.to_radians()), afternoon)).collect();
+    // From a degree above the horizon to a degree above it: the sun passes due east and due west, where it crosses the plane that faces the eye.
+    let day: Vec<(View, Vec3)> =
+        (0..200).map(|i| (view(0.0, 0.2), midsummer(-106.0 + 212.0 * f64::from(i) / 199.0))).collect();
+    // Due west, from 3° below the horizon to 3° above it.
+    let dusk: Vec<(View, Vec3)> = (0..61)
+        .map(|i| (0.1 * f64::from(i) - 3.0).to_radians().sin_cos())
+        .map(|(sin, cos)| (view(0.0, 0.2), DVec3::new(-cos, sin, 0.0).as_vec3()))
+        .collect();
+    for (name, frames) in [
+        ("orbit of 1° steps", &orbit),
+        ("rise by 0.5° steps", &rise),
+        ("day of 200 frames", &day),
+        ("dusk by 0.1° steps", &dusk),
+    ] {
+        if some.as_ref().is_some_and(|some| !name.starts_with(some)) {
+            continue;
+        }
         for turn in [Turn::WithEye, Turn::Fixed] {
             let stand = alone(species(&mesh, 4, 256), Setting { turn, ..Setting::default() });
             let stand = stand.with(Setting { turn, ..Setting::default() }, Shading::default());
@@ -87,10 +98,23 @@ fn main() {
     }
 }
 
+/// Towards the sun at 35° north on the longest day, by its hour angle in degrees; south is +Z, east +X.
+fn midsummer(hour: f64) -> Vec3 {
+    let [(sin_lat, cos_lat), (sin, cos)] = [35.0f64, 23.44].map(|angle| angle.to_radians().sin_cos());
+    let (sin_hour, cos_hour) = hour.to_radians().sin_cos();
+    let up = sin_lat * sin + cos_lat * cos * cos_hour;
+    DVec3::new(-cos * sin_hour, up, sin_lat * cos * cos_hour - cos_lat * sin).as_vec3()
+}
+
+/// Share of the sun's disc that is above the horizon, about.
+fn risen(toward: Vec3) -> f32 {
+    (toward.y.asin().to_degrees() / 0.53 + 0.5).clamp(0.0, 1.0)
+}
+
 fn render(frames: &[(View, Vec3)], pixel: impl Fn(&View, &Daylight, DVec2, u32) -> [f32; 2]) -> Vec<Frame> {
     let frame = |(view, sun): &(View, Vec3)| {
         let light = Daylight::clear(*sun, 4);
-        let light = Daylight { sun: light::Spectrum::ONE, ..light };
+        let light = Daylight { sun: light::Spectrum::splat(risen(*sun)), ..light };
         (0..SIDE * SIDE)
             .map(|i| {
                 let at = DVec2::new(f64::from(i % SIDE) + 0.5, f64::from(i / SIDE) + 0.5);

@@ -19,7 +19,8 @@ use raster::{Frame, raster};
 /// How a mesh becomes pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bake {
-    /// Rows of the side view, from 2 to 4096; all pictures have its resolution. Memory grows with the square.
+    /// Rows of the side view, from 2 to 4096; all pictures have its resolution. Memory grows with the square: no more than
+    /// [`MOST_BYTES`] are taken for pictures.
     pub rows: u32,
     /// Horizontal planes, at most 64; 0 vanishes from above.
     pub planes: u32,
@@ -50,6 +51,8 @@ pub enum BakeError {
     Empty,
     /// Rows, planes or samples out of range.
     Size,
+    /// Pictures would take so many bytes, more than [`MOST_BYTES`].
+    Memory(u64),
     /// A coordinate is no finite number.
     NotFinite,
     /// What was baked is no species.
@@ -61,6 +64,12 @@ impl fmt::Display for BakeError {
         match self {
             Self::Empty => out.write_str("the mesh has nothing above the ground (y = 0)"),
             Self::Size => out.write_str("2 to 4096 rows, up to 64 planes, 1 to 8 samples"),
+            Self::Memory(bytes) => write!(
+                out,
+                "pictures of so many rows and planes take {:.1} GB: at most {:.1} GB are possible, with fewer rows or planes",
+                *bytes as f64 / 1e9,
+                MOST_BYTES as f64 / 1e9
+            ),
             Self::NotFinite => out.write_str("the mesh has a corner that is nowhere"),
             Self::Species(error) => error.fmt(out),
         }
@@ -68,6 +77,12 @@ impl fmt::Display for BakeError {
 }
 
 impl std::error::Error for BakeError {}
+
+/// What the pictures of a species may take \[bytes\]: 4096 rows with four planes are possible, for a tree as wide as it is high.
+pub const MOST_BYTES: u64 = 2 << 30;
+
+/// Of each texel: 8 bytes, a third more for coarser ones, a mask, and 5 while it is made.
+const BYTES_A_TEXEL: u64 = 17;
 
 /// Pictures of this many texels in a row, at most, however wide the tree.
 const WIDEST: u32 = 4096;
@@ -83,27 +98,10 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
         return Err(BakeError::NotFinite);
     }
     let leaves = Leaves::of(tree).ok_or(BakeError::Empty)?;
-    let (height, radius) = leaves.reach;
-    let texel = height / bake.rows as f32;
-    // A whole number of texels on each side of the axis, and one that stays clear.
-    let columns = (2 * ((radius / texel).ceil() as u32 + 1)).min(WIDEST);
-    let half_width = (0.5 * columns as f32 * texel).max(1.02 * radius);
-    let frame = Frame {
-        right: Vec3::X,
-        down: Vec3::NEG_Y,
-        corner: Vec2::new(-half_width, -height),
-        texel: Vec2::new(2.0 * half_width / columns as f32, texel),
-        size: [columns, bake.rows],
-    };
+    let (height, _) = leaves.reach;
+    let (half_width, frame, from_above) = frames(leaves.reach, bake)?;
     let everything = [f32::NEG_INFINITY, f32::INFINITY];
     let side = raster(tree, &frame, bake.samples, everything).ok_or(BakeError::Size)?;
-    let from_above = Frame {
-        down: Vec3::Z,
-        corner: Vec2::splat(-half_width),
-        texel: Vec2::splat(2.0 * half_width / columns as f32),
-        size: [columns; 2],
-        ..frame
-    };
     let slices = leaves
         .layers(bake.planes)
         .into_iter()
@@ -136,6 +134,33 @@ pub fn bake(tree: &TreeMesh, bake: &Bake) -> Result<Species, BakeError> {
     .map_err(BakeError::Species)?;
     let shelter = shelter::fitted(tree, &species);
     Ok(species.sheltered(shelter))
+}
+
+/// Half the width of all pictures \[m\], and the planes of the side view and of those from above, for a tree of that height and radius.
+fn frames((height, radius): (f32, f32), bake: &Bake) -> Result<(f32, Frame, Frame), BakeError> {
+    let texel = height / bake.rows as f32;
+    // A whole number of texels on each side of the axis, and one that stays clear.
+    let columns = (2 * ((radius / texel).ceil() as u32 + 1)).min(WIDEST);
+    let texels = u64::from(columns) * (u64::from(bake.rows) + u64::from(columns) * u64::from(bake.planes));
+    if texels * BYTES_A_TEXEL > MOST_BYTES {
+        return Err(BakeError::Memory(texels * BYTES_A_TEXEL));
+    }
+    let half_width = (0.5 * columns as f32 * texel).max(1.02 * radius);
+    let side = Frame {
+        right: Vec3::X,
+        down: Vec3::NEG_Y,
+        corner: Vec2::new(-half_width, -height),
+        texel: Vec2::new(2.0 * half_width / columns as f32, texel),
+        size: [columns, bake.rows],
+    };
+    let from_above = Frame {
+        down: Vec3::Z,
+        corner: Vec2::splat(-half_width),
+        texel: Vec2::splat(2.0 * half_width / columns as f32),
+        size: [columns; 2],
+        ..side
+    };
+    Ok((half_width, side, from_above))
 }
 
 fn mean_reflectance(side: &Sheet) -> Spectrum {

@@ -95,6 +95,10 @@ fn meshes_that_are_no_trees_are_refused() {
     let mut nowhere = two_leaves();
     nowhere.parts[0].mesh.positions[0].x = f32::NAN;
     assert_eq!(refused(&nowhere, rows(64)), Some(BakeError::NotFinite));
+    // 4096 rows of two square metres and 64 planes of them: 18 GB.
+    let large = refused(&small(), Bake { rows: 4096, planes: 64, ..Bake::default() });
+    let Some(BakeError::Memory(bytes)) = large else { panic!("{large:?}") };
+    assert!(bytes > crate::MOST_BYTES && BakeError::Memory(bytes).to_string().contains("at most 2.1 GB"));
     // A tree in winter is a tree.
     let mut bare = small();
     bare.parts.retain(|part| !part.leaf);

@@ -7,8 +7,7 @@
 //! ([`bake`]), for instance one grown from a few numbers ([`grow`]), or put together by hand ([`Description`]). A tree more is 24 bytes and its share of a hierarchy,
 //! 40 to 50 in all. [`reference`](mod@reference) answers for the mesh itself, to measure the difference.
 //!
-//! **Leaves out.** Files; wind; seasons; light that leaves scatter to each other and to the ground; the sun's disc, except that
-//! shadows are read as wide as it makes them, whatever its diameter; flowers and gloss.
+//! **Leaves out.** Files; wind; seasons; light that leaves scatter to each other and to the ground; the sun's disc; flowers and gloss.
 //!
 //! **Known to be wrong.** Figures are those of `examples/planes_against_mesh` with four planes: planes against the mesh that they were
 //! baked from. Within a crown light fades as in a cloud of even density, sheltered by clumps on the mean of all
@@ -19,7 +18,9 @@
 //! sixth. Three planes are within 0.03 of four, two within 0.1; without any, a fifth to half is left at 60° and nothing from above. Nearer than a tree's own height, above
 //! all from below, horizontal planes show as veils at the crown's border, and from within its crown a tree is flat.
 //! Planes are set for each ray to a lamp, so that the way back is as dark: they differ slightly over a shadow. Extended light is asked for once per tree and ray. A vertical plane turns at once where the eye passes over its
-//! axis. Bark has no texture but its picture's, and round stems are lit as if seen from the level.
+//! axis. Shadows of distant light are read 4.7 mm wide for each metre of their way, half of what the sun's disc makes, whatever the
+//! source's diameter: a sun that is a point leaves soft shadows, and where its disc is asked for with several rays, its
+//! penumbra is a sixth too wide (√(2.33² + 1.36²) in place of 2.33 mrad, root mean square). Bark has no texture but its picture's, and round stems are lit as if seen from the level.
 //!
 //! ```
 //! use glam::Vec3;
@@ -55,7 +56,7 @@ mod species;
 mod stand;
 mod tree_mesh;
 
-pub use bake::{Bake, BakeError, TRANSMITTANCE, bake};
+pub use bake::{Bake, BakeError, MOST_BYTES, TRANSMITTANCE, bake};
 pub use envelope::Envelope;
 pub use grow::{Form, Growth, grow};
 pub use leaf::{Crossing, Shading};

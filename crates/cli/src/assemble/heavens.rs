@@ -1,11 +1,12 @@
 //! The sky of the scene → a source of the pipeline: which model, seen how, kept in maps or not.
 
+use std::fmt::Write;
 use std::sync::Arc;
 
 use glam::Vec3;
 use light::{Bodies, Geometry, Illuminate, Spectrum};
 use scene::{Scene, SkyTable};
-use sky::map::{Described, Mapped};
+use sky::map::{Described, Fnv, Mapped};
 use sky::{
     BandSky, Conditions, CuboidSky, Description, Division, Dome, LuminanceTable, Model, PatchSky, Perez,
     Scale, WholeSky, bouguer, measured_sky,
@@ -209,7 +210,25 @@ fn hiding(scene: &Scene, settings: &Settings) -> String {
     let media: Vec<_> = scene.materials.iter().map(scene::Material::medium).collect();
     let stages = ["shadows", "sky.patches", "sky.ground"].map(|name| settings.choice(name));
     let trees = settings.of("trees").collect::<Vec<_>>();
-    format!("{:?}{media:?}{stages:?}{:?}{trees:?}", scene.solids, scene.trees)
+    format!("{:?}{media:?}{stages:?}{:x}{trees:?}", scene.solids, number_of_trees(scene))
+}
+
+/// A number for all trees: in words, as text, a million would be 100 MB.
+fn number_of_trees(scene: &Scene) -> u128 {
+    let mut fnv = Fnv::new();
+    for trees in &scene.trees {
+        let scene::Trees { species, placed, height, on_ground } = trees;
+        // Trees on the ground keep away from waters. Writing to a number cannot fail.
+        let waters = on_ground.then_some(&scene.waters);
+        let _ = write!(fnv, "{species:?}{height:?}{}{waters:?}", placed.len());
+        for scene::PlacedTree { position, scale, rotation } in placed {
+            position.to_array().iter().for_each(|x| {
+                fnv.bytes(&x.to_le_bytes());
+            });
+            fnv.bytes(&scale.to_le_bytes()).bytes(&rotation.to_le_bytes());
+        }
+    }
+    fnv.number()
 }
 
 /// The sky's light, likewise. More may be in it than matters: then something is found anew in vain.
@@ -267,6 +286,28 @@ mod tests {
             settings.set(name, value, "--set").unwrap();
         }
         [hiding(&scene, &settings), light_of_the_sky(&scene, &settings)]
+    }
+
+    #[test]
+    fn maps_are_told_apart_by_their_trees_in_few_words() {
+        let few = "[[water]]\npolygon = { points = [[8, 0, 8], [8, 0, 9], [9, 0, 9]] }\n[[tree]]\nspecies = 'spruce'\npositions = [[1, 0, 0], [4, 0, 0]]\n";
+        let [of_few, _] = words(few, &[]);
+        for (from, to) in [
+            ("spruce", "poplar"),
+            ("[4, 0, 0]", "[4, 0, 0.001]"),
+            (", [4, 0, 0]", ""),
+            ("\n[[tree]]", "\n[[tree]]\nground = true"),
+            ("\n[[tree]]", "\n[[tree]]\nrotation = 3"),
+            ("\n[[tree]]", "\n[[tree]]\nheight = 3"),
+            ("\n[[tree]]", "\n[[tree]]\nvariation = 0.1"),
+        ] {
+            assert_ne!(words(&few.replace(from, to), &[])[0], of_few, "{to}");
+        }
+        let ground = few.replace("[[tree]]", "[[tree]]\nground = true");
+        assert_ne!(words(&ground.replace("[8, 0, 9]", "[8, 0, 12]"), &[]), words(&ground, &[]));
+        let corners = "[[0, 0, 0], [3000, 0, 0], [3000, 0, 3000], [0, 0, 3000]]";
+        let many = format!("[[tree]]\nspecies = 'spruce'\npolygon = {{ points = {corners} }}\n");
+        assert!(words(&many, &[])[0].len() < of_few.len() + 100);
     }
 
     #[test]

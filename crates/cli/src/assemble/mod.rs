@@ -60,7 +60,7 @@ pub struct Standing {
     shade: Arc<[Box<dyn Shade>]>,
     waters: Option<Waters>,
     /// All trees, if there are any.
-    stand: Option<Arc<dyn Traverse>>,
+    stand: Option<Arc<::trees::Stand>>,
     /// What faces see of each other, once that has been asked for.
     linked: OnceLock<Linked>,
     /// What only building can find to be unusual, in words.
@@ -82,20 +82,19 @@ impl Standing {
         };
         let traced = Traced::of([&seen, &scene.geometry], plan, solids);
         let waters = waters.map(|waters| waters.over_beds(&*traced.dry()));
-        let stand = trees::stand(scene, &plan.settings, &*traced.dry())?;
+        let flat = waters.as_ref().map(|waters| &**waters.flat()).unwrap_or_default();
+        let ground = trees::Ground { dry: &*traced.dry(), waters: flat };
+        let planted = trees::stand(scene, &plan.settings, ground)?;
+        let stand = planted.as_ref().and_then(|planted| planted.stand.clone());
         let occlude = Arc::new(Product(match plan.settings.choice("shadows") {
             "off" => Vec::new(),
-            _ => {
-                traced.occlude().into_iter().chain(stand.iter().map(|trees| shading(&trees.stand))).collect()
-            }
+            _ => traced.occlude().into_iter().chain(stand.iter().map(shading)).collect(),
         }));
         let surfaces = waters.iter().flat_map(Waters::shaders);
         let shade = scene.materials.iter().map(materials::shade).chain(more).chain(surfaces).collect();
-        let flat = waters.as_ref().map(|waters| &**waters.flat());
-        let mut warnings = banks::warnings(scene, flat.unwrap_or_default(), &*traced.dry());
+        let mut warnings = banks::warnings(scene, flat, &*traced.dry());
         warnings.extend(waters.iter().flat_map(|waters| waters.warnings(scene)));
-        warnings.extend(stand.iter().filter_map(trees::Planted::warning));
-        let stand = stand.map(|trees| trees.stand as Arc<dyn Traverse>);
+        warnings.extend(planted.iter().flat_map(trees::Planted::warnings));
         Ok(Self { traced, occlude, shade, waters, stand, linked: OnceLock::new(), warnings })
     }
 
@@ -141,6 +140,18 @@ impl Standing {
         Linked::new(scene, settings, among, sources)
     }
 
+    /// What fills the space.
+    fn between(&self) -> Vec<Arc<dyn Traverse>> {
+        let fill = self.waters.as_ref().map(Waters::fill);
+        let stand = self.stand.as_ref().map(Arc::clone);
+        match (stand, fill) {
+            (Some(stand), Some(fill)) => vec![Arc::new(trees::Submerged { stand, fill })],
+            (Some(stand), None) => vec![stand],
+            (None, Some(fill)) => vec![Arc::new(fill)],
+            (None, None) => Vec::new(),
+        }
+    }
+
     /// All stages of one picture.
     ///
     /// # Errors
@@ -156,8 +167,7 @@ impl Standing {
             shade: Arc::clone(&self.shade),
             sources,
             occlude: Arc::clone(&self.occlude) as Arc<dyn Occlude>,
-            // Trees first: water that is seen through them is behind them.
-            between: self.stand.iter().cloned().chain(self.waters.iter().map(Waters::fill)).collect(),
+            between: self.between(),
             limits: Limits {
                 depth: settings.integer("ray-depth") as u8,
                 share: settings.number("ray-share") as f32,

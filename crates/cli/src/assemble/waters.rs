@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec3};
-use light::{Geometry, Illuminate, Instance, Nearest, PointSource, Ray, Shade, Traverse};
+use light::{Geometry, Illuminate, Instance, Nearest, PointSource, Ray, Shade};
 use scene::Scene;
 use water::caustics::{Beams, Setting};
 use water::flat::{Along, Fill, FlatWater, Lit, Part, Rules, Scattered, Source as Kind, SurfaceShade};
@@ -114,8 +114,9 @@ impl Waters {
         })
     }
 
-    pub(super) fn fill(&self) -> Arc<dyn Traverse> {
-        Arc::new(Fill::new(Arc::clone(&self.waters)))
+    /// What fills them.
+    pub(super) fn fill(&self) -> Fill {
+        Fill::new(Arc::clone(&self.waters))
     }
 
     /// A source as it arrives above and below; its shadows are no straight lines any more.

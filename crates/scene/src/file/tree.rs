@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::PolygonTable;
 
-/// Trees of one species. One of position, positions, file, polygon.
+/// Trees of one species. One of position, positions, file, points, polygon.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct TreeTable {
@@ -19,6 +19,10 @@ pub(crate) struct TreeTable {
     pub(crate) positions: Option<Vec<[f64; 3]>>,
     /// The same in a text file (XYZ or CSV: east, north, height), relative to this file.
     pub(crate) file: Option<PathBuf>,
+    /// Those of a GeoJSON file, relative to this file: points with the properties height [m], species and rotation [degrees].
+    pub(crate) points: Option<PathBuf>,
+    /// What the coordinates of points are. Default: longitude and latitude if there is a [site] and the file names no other system; else metres.
+    pub(crate) coordinates: Option<Coordinates>,
     /// Scattered over a level polygon.
     pub(crate) polygon: Option<PolygonTable>,
     /// Between scattered trees, on average [m], > 0. Default: two thirds of their height.
@@ -34,4 +38,14 @@ pub(crate) struct TreeTable {
     pub(crate) ground: Option<bool>,
     /// Decides what is random. Default 1.
     pub(crate) seed: Option<u32>,
+}
+
+/// What the coordinates of a GeoJSON file are.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Coordinates {
+    /// Longitude and latitude; the site is the origin of the scene file's coordinates.
+    Degrees,
+    /// East and north in the scene file's coordinates: x and −z.
+    Metres,
 }

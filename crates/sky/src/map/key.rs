@@ -6,15 +6,31 @@ use super::Settings;
 use super::kept::VERSION;
 
 /// FNV-1a of 128 bits: two contents that differ by chance have one number with a likelihood of 2⁻¹²⁸ (nobody who
-/// wants them to is kept out).
-pub(crate) struct Fnv(u128);
+/// wants them to is kept out). What is written to it as text counts as its bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fnv(u128);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl std::fmt::Write for Fnv {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.bytes(text.as_bytes());
+        Ok(())
+    }
+}
 
 impl Fnv {
-    pub(crate) fn new() -> Self {
+    /// Of nothing.
+    pub fn new() -> Self {
         Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d)
     }
 
-    pub(crate) fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
+    /// Of what there was with these after it.
+    pub fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
         for &byte in bytes {
             self.0 = (self.0 ^ u128::from(byte)).wrapping_mul((1 << 88) | 0x13b);
         }
@@ -39,7 +55,8 @@ impl Fnv {
         self
     }
 
-    pub(crate) fn number(&self) -> u128 {
+    /// The number, the same on every machine.
+    pub fn number(&self) -> u128 {
         self.0
     }
 }

@@ -1,5 +1,7 @@
 //! A tree seen from infinitely far, by a depth buffer.
 
+use std::ops::Range;
+
 use glam::{DVec2, Vec2, Vec3};
 use light::colour::encode_srgb;
 
@@ -30,22 +32,59 @@ struct Sample {
     leaf: bool,
 }
 
+/// Samples that are held at once, of 20 bytes: pictures are made in bands of so many.
+const HELD: usize = 1 << 21;
+
 /// The picture of what lies between two heights \[m\], `samples`² samples a texel; none for a frame without texels.
+///
+/// Takes 40 MiB besides the picture, however fine it is (a row of texels, if that is more): all triangles are looked at for
+/// each band.
 pub(super) fn raster(tree: &TreeMesh, frame: &Frame, samples: u32, heights: [f32; 2]) -> Option<Sheet> {
+    in_bands(tree, frame, samples, (heights, HELD))
+}
+
+fn in_bands(
+    tree: &TreeMesh,
+    frame: &Frame,
+    samples: u32,
+    (heights, held): ([f32; 2], usize),
+) -> Option<Sheet> {
+    let row = frame.size[0] as usize * samples as usize;
+    let rows = frame.size[1] as usize;
+    let high = (held / (row * samples as usize).max(1)).clamp(1, rows.max(1));
+    let (mut texels, mut leaves) = (Vec::new(), Vec::new());
     let nothing = Sample { nearness: f32::NEG_INFINITY, colour: Vec3::ZERO, leaf: false };
-    let [width, height] = frame.size.map(|count| (count * samples) as usize);
-    let mut buffer = vec![nothing; width * height];
+    let mut buffer = vec![nothing; row * high.min(rows) * samples as usize];
+    for first in (0..rows).step_by(high) {
+        let last = (first + high).min(rows);
+        let lines = first * samples as usize..last * samples as usize;
+        let buffer = &mut buffer[..row * lines.len()];
+        buffer.fill(nothing);
+        draw(tree, (frame, samples), heights, (buffer, &lines));
+        resolve(buffer, frame.size[0] as usize, samples as usize, (&mut texels, &mut leaves));
+    }
+    Sheet::new(frame.size[0], frame.size[1], &texels, &leaves)
+}
+
+/// What is nearest at the samples of some lines of the picture.
+fn draw(
+    tree: &TreeMesh,
+    (frame, samples): (&Frame, u32),
+    heights: [f32; 2],
+    (buffer, lines): (&mut [Sample], &Range<usize>),
+) {
+    let width = frame.size[0] as usize * samples as usize;
     for part in &tree.parts {
         for corners in &part.mesh.triangles {
             let Some(face) = face(part, *corners, frame, samples).filter(|face| face.reaches(heights)) else {
                 continue;
             };
-            face.fill([width, height], |x, y, weights| {
+            face.fill(width, lines, |x, y, weights| {
                 let position = mix(face.positions, weights);
                 if position.y < 0.0 || !(heights[0]..heights[1]).contains(&position.y) {
                     return;
                 }
-                let slot = &mut buffer[y * width + x];
+                let slot = &mut buffer[(y - lines.start) * width + x];
                 let nearness = position.dot(face.toward);
                 if nearness > slot.nearness && there(part, *corners, weights, (x, y)) {
                     *slot = Sample { nearness, colour: colour(part, *corners, weights), leaf: part.leaf };
@@ -53,15 +92,18 @@ pub(super) fn raster(tree: &TreeMesh, frame: &Frame, samples: u32, heights: [f32
             });
         }
     }
-    resolve(&buffer, frame.size, samples as usize)
 }
 
-/// Means over texels.
-fn resolve(buffer: &[Sample], [width, height]: [u32; 2], samples: usize) -> Option<Sheet> {
-    let row = width as usize * samples;
-    let (mut texels, mut leaves) = (Vec::new(), Vec::new());
-    for i in 0..width as usize * height as usize {
-        let (x, y) = (i % width as usize * samples, i / width as usize * samples);
+/// Means over texels, after those that there are.
+fn resolve(
+    buffer: &[Sample],
+    width: usize,
+    samples: usize,
+    (texels, leaves): (&mut Vec<[u8; 4]>, &mut Vec<u8>),
+) {
+    let row = width * samples;
+    for i in 0..buffer.len() / (samples * samples) {
+        let (x, y) = (i % width * samples, i / width * samples);
         let (mut count, mut leafy, mut colour) = (0, 0, Vec3::ZERO);
         for sample in (0..samples).flat_map(|v| &buffer[(y + v) * row + x..][..samples]) {
             if sample.nearness > f32::NEG_INFINITY {
@@ -75,7 +117,6 @@ fn resolve(buffer: &[Sample], [width, height]: [u32; 2], samples: usize) -> Opti
         texels.push([r, g, b, code(count as f32 / (samples * samples) as f32)]);
         leaves.push(if 2 * leafy >= count { 255 } else { 0 });
     }
-    Sheet::new(width, height, &texels, &leaves)
 }
 
 /// A triangle on the picture.
@@ -102,8 +143,8 @@ impl Face {
         heights.iter().any(|y| *y >= low) && heights.iter().any(|y| *y < high)
     }
 
-    /// Samples whose centres lie inside, with their barycentric weights.
-    fn fill(&self, [width, height]: [usize; 2], mut receive: impl FnMut(usize, usize, [f32; 3])) {
+    /// Samples of some lines whose centres lie inside, with their barycentric weights.
+    fn fill(&self, width: usize, lines: &Range<usize>, mut receive: impl FnMut(usize, usize, [f32; 3])) {
         let [a, b, c] = self.at;
         let area = (b - a).perp_dot(c - a);
         if area == 0.0 {
@@ -111,11 +152,12 @@ impl Face {
         }
         let low = a.min(b).min(c) - 0.5;
         let high = a.max(b).max(c) + 0.5;
-        let range = |low: f64, high: f64, count: usize| {
-            (low.max(0.0) as usize)..(high.min(count as f64).max(0.0) as usize)
+        let range = |low: f64, high: f64, within: &Range<usize>| {
+            let [from, to] = [low, high].map(|end| end.max(0.0) as usize);
+            from.max(within.start)..to.min(within.end)
         };
-        for y in range(low.y, high.y, height) {
-            for x in range(low.x, high.x, width) {
+        for y in range(low.y, high.y, lines) {
+            for x in range(low.x, high.x, &(0..width)) {
                 let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
                 let weights = [(b - p).perp_dot(c - p), (c - p).perp_dot(a - p), (a - p).perp_dot(b - p)]
                     .map(|w| w / area);
@@ -148,4 +190,32 @@ fn colour(part: &Part, corners: [u32; 3], weights: [f32; 3]) -> Vec3 {
     let texture =
         part.texture.as_ref().map_or(Vec3::ONE, |texture| texture.sample(uv(part, corners, weights), 0.0).0);
     part.colour * mix([vertex(0), vertex(1), vertex(2)], weights) * texture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grow::{Form, Growth, grow};
+
+    #[test]
+    fn bands_make_the_picture_that_one_makes() {
+        let tree = grow(&Growth { leaves: 300, ..Growth::usual(Form::Spreading, 9.0, 1) }).unwrap();
+        let frame = Frame {
+            right: Vec3::X,
+            down: Vec3::NEG_Y,
+            corner: Vec2::new(-5.0, -9.0),
+            texel: Vec2::splat(9.0 / 61.0),
+            size: [67, 61],
+        };
+        let picture = |held: usize| {
+            let sheet = in_bands(&tree, &frame, 3, ([f32::NEG_INFINITY, f32::INFINITY], held)).unwrap();
+            (sheet.texels(), sheet.leaves().to_vec())
+        };
+        let whole = picture(usize::MAX);
+        assert!(whole.0.iter().any(|texel| texel[3] > 0));
+        // Rows of 67 · 9 samples: single ones, five, and all but one.
+        for held in [1, 67 * 9 * 5, 67 * 9 * 60] {
+            assert!(picture(held) == whole, "{held}");
+        }
+    }
 }

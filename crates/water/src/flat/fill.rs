@@ -18,6 +18,11 @@ impl Fill {
     pub fn new(waters: Arc<[FlatWater]>) -> Self {
         Self { waters }
     }
+
+    /// The one that a ray runs in; none in air.
+    pub fn around(&self, ray: &Ray) -> Option<&FlatWater> {
+        filling(&self.waters, ray).map(|i| &self.waters[i])
+    }
 }
 
 impl Traverse for Fill {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use light::Mesh;
-use scene::{PicturedTree, TreePicture, gltf, species_folder};
+use scene::{PicturedTree, TreeEnvelope, TreePicture, gltf, species_folder};
 use trees::{
     Bake, Form, Growth, Photo, Picture, Sheet, Species, SpeciesError, TreeMesh, bake, from_photo, grow,
 };
@@ -64,7 +64,9 @@ impl Made {
             height: f64::from(made.height),
             half_width: f64::from(made.half_width),
             pictures: std::iter::once((None, picture(&made.side))).chain(slices).collect(),
-            envelope: made.envelope.knots().iter().map(|knot| knot.as_dvec2().to_array()).collect(),
+            envelope: TreeEnvelope::Knots(
+                made.envelope.knots().iter().map(|knot| knot.as_dvec2().to_array()).collect(),
+            ),
             leaf: f64::from(made.leaf.size),
             reflectance: made.leaf.reflectance.map(|share| share.0.map(f64::from)),
             transmittance: made.leaf.transmittance.0.map(f64::from),

@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 use light::Spectrum;
-use scene::{PicturedTree, TreeSpecies};
+use scene::{CrownShape, PicturedTree, ShapedEnvelope, TreeEnvelope, TreeSpecies};
 use trees::{Bake, Description, Envelope, Form, Growth, Leaf, Sheet, Slice, Species, bake, grow};
 
 use crate::Error;
@@ -80,18 +80,13 @@ fn pictured(tree: &PicturedTree, most: u32) -> Result<Species, Error> {
         let keep: Vec<usize> = (0..most).map(|i| (2 * i + 1) * have / (2 * most)).collect();
         slices = slices.into_iter().enumerate().filter(|(i, _)| keep.contains(i)).map(|(_, s)| s).collect();
     }
-    let knots: Vec<Vec2> = tree.envelope.iter().map(|&[h, r]| Vec2::new(h as f32, r as f32)).collect();
     let bands = |values: [f64; light::bands::BANDS]| Spectrum(values.map(|value| value as f32));
     Species::new(Description {
         height: tree.height as f32,
         half_width: tree.half_width as f32,
         side: side.ok_or_else(|| wrong("has no side view".to_owned()))?,
         slices,
-        envelope: Envelope::fitted(&knots).ok_or_else(|| {
-            wrong(
-                "envelope must be rows of height and radius, heights rising, some radius above 0".to_owned(),
-            )
-        })?,
+        envelope: envelope(tree).map_err(wrong)?,
         leaf: Leaf {
             size: tree.leaf as f32,
             reflectance: tree.reflectance.map(bands),
@@ -104,4 +99,29 @@ fn pictured(tree: &PicturedTree, most: u32) -> Result<Species, Error> {
         seed: tree.seed,
     })
     .map_err(|error| wrong(error.to_string()))
+}
+
+/// The outline that a folder states.
+fn envelope(tree: &PicturedTree) -> Result<Envelope, String> {
+    match &tree.envelope {
+        TreeEnvelope::Knots(knots) => {
+            let knots: Vec<Vec2> = knots.iter().map(|&[h, r]| Vec2::new(h as f32, r as f32)).collect();
+            Envelope::fitted(&knots).ok_or_else(|| {
+                "envelope must be rows of height and radius, heights rising, some radius above 0".to_owned()
+            })
+        }
+        TreeEnvelope::Shape(ShapedEnvelope { shape, base, top, radius }) => {
+            let made = match shape {
+                CrownShape::Ellipsoid => Envelope::ellipsoid,
+                CrownShape::Pencil => Envelope::pencil,
+                CrownShape::InvertedCone => Envelope::inverted_cone,
+            };
+            let top = top.unwrap_or(tree.height);
+            made(*base as f32, top as f32, *radius as f32).ok_or_else(|| {
+                format!(
+                    "envelope: no crown is {radius} m wide from {base} to {top} m: the radius must be above 0, and base below top"
+                )
+            })
+        }
+    }
 }

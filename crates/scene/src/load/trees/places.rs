@@ -25,22 +25,66 @@ const VARIATION: f64 = 0.2;
 /// Share of its square of the grid within which a scattered tree stands: neighbours never touch.
 const JITTER: f64 = 0.7;
 
-/// All trees of a table, about `usual` metres high, no more than are `left`.
+/// Checks that a table says once where its trees stand, and nothing that is for others.
+pub(super) fn one_source(spot: &Spot<'_>, table: &TreeTable) -> Result<(), Error> {
+    spot.exactly_one(&[
+        ("position", table.position.is_some()),
+        ("positions", table.positions.is_some()),
+        ("file", table.file.is_some()),
+        ("points", table.points.is_some()),
+        ("polygon", table.polygon.is_some()),
+    ])?;
+    if let (Some(_), None) = (table.spacing, &table.polygon) {
+        return Err(spot.key("spacing").error("is for trees that are scattered over a polygon"));
+    }
+    if let (Some(_), None) = (table.coordinates, &table.points) {
+        return Err(spot.key("coordinates").error("is for points of a GeoJSON file"));
+    }
+    Ok(())
+}
+
+/// What differs by chance between the trees of a table.
+pub(super) struct Strewn {
+    seed: u32,
+    variation: f64,
+    /// In degrees, of all of them.
+    rotation: Option<f64>,
+}
+
+impl Strewn {
+    /// As the table says.
+    pub(super) fn of(spot: &Spot<'_>, table: &TreeTable) -> Result<Self, Error> {
+        let variation = table.variation.unwrap_or(if table.polygon.is_some() { VARIATION } else { 0.0 });
+        let variation = spot.key("variation").within(variation, 0.0, 0.9, "")?;
+        let within = |degrees| spot.key("rotation").within(degrees, -3600.0, 3600.0, "°");
+        let rotation = table.rotation.map(within).transpose()?;
+        Ok(Self { seed: table.seed.unwrap_or(1), variation, rotation })
+    }
+
+    /// The tree of that number: with its own factor on the height and its own turn in degrees, where it has them.
+    pub(super) fn tree(
+        &self,
+        i: usize,
+        position: DVec3,
+        (scale, rotation): (Option<f64>, Option<f64>),
+    ) -> PlacedTree {
+        let [size, turn] =
+            shift(scramble(self.seed) ^ i as u32, 1).map(|bits| f64::from(bits) / 4_294_967_296.0);
+        PlacedTree {
+            position,
+            scale: scale.unwrap_or(1.0 + self.variation * (2.0 * size - 1.0)) as f32,
+            rotation: rotation.or(self.rotation).map_or(turn * TAU, f64::to_radians) as f32,
+        }
+    }
+}
+
+/// All trees of a table but for those of a list, about `usual` metres high, no more than are `left`.
 pub(super) fn placed(
     spot: &Spot<'_>,
     table: &TreeTable,
     usual: f64,
     left: usize,
 ) -> Result<Vec<PlacedTree>, Error> {
-    spot.exactly_one(&[
-        ("position", table.position.is_some()),
-        ("positions", table.positions.is_some()),
-        ("file", table.file.is_some()),
-        ("polygon", table.polygon.is_some()),
-    ])?;
-    if let (Some(_), None) = (table.spacing, &table.polygon) {
-        return Err(spot.key("spacing").error("is for trees that are scattered over a polygon"));
-    }
     let seed = table.seed.unwrap_or(1);
     let (key, points) = match (&table.position, &table.positions, &table.file, &table.polygon) {
         (Some(at), ..) => ("position", vec![spot.key("position").point(*at)?]),
@@ -63,19 +107,8 @@ pub(super) fn placed(
     if points.len() > left {
         return Err(spot.key(key).error(format!("makes {} trees: {left} more are possible", points.len())));
     }
-    let variation = table.variation.unwrap_or(if table.polygon.is_some() { VARIATION } else { 0.0 });
-    let variation = spot.key("variation").within(variation, 0.0, 0.9, "")?;
-    let rotation = table.rotation.map(|degrees| spot.key("rotation").within(degrees, -3600.0, 3600.0, "°"));
-    let rotation = rotation.transpose()?;
-    let place = |(i, position): (usize, DVec3)| {
-        let [size, turn] = shift(scramble(seed) ^ i as u32, 1).map(|bits| f64::from(bits) / 4_294_967_296.0);
-        PlacedTree {
-            position,
-            scale: (1.0 + variation * (2.0 * size - 1.0)) as f32,
-            rotation: rotation.map_or(turn * TAU, f64::to_radians) as f32,
-        }
-    };
-    Ok(points.into_iter().enumerate().map(place).collect())
+    let strewn = Strewn::of(spot, table)?;
+    Ok(points.into_iter().enumerate().map(|(i, at)| strewn.tree(i, at, (None, None))).collect())
 }
 
 /// One tree in each square of a grid, somewhere within it, if that is inside the polygon.
