@@ -30,14 +30,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         heights.join(", ")
     );
 
-    let stands = [Fade::Thesis, Fade::Density, Fade::Opaque].map(|fade| {
+    let mut stands = Vec::new();
+    for fade in [Fade::Thesis, Fade::Density, Fade::Opaque] {
         let placed = Placed { species: 0, position: Vec3::ZERO, height: tree.height, rotation: 0.0 };
         let setting = Setting { fade, ..Setting::default() };
-        (
-            fade,
-            Stand::new(vec![species.clone()], vec![placed]).map(|stand| stand.with(setting, Shading::Leaves)),
-        )
-    });
+        stands.push(Stand::new(vec![species.clone()], vec![placed])?.with(setting, Shading::Leaves));
+    }
     println!(
         "elevation | cos θ: vertical, horizontal | hidden: mesh |  as the thesis fades |  density |  opaque"
     );
@@ -64,8 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             reference.through(ray.origin.as_dvec3(), ray.direction.as_dvec3(), 0.0, f64::INFINITY) as f32
         };
         print!("{elevation:8.0}° | {:15.2}, {sin:10.2} | {:12.3}", cos.max(0.0), hidden(&through_mesh));
-        for (_, stand) in &stands {
-            let stand = stand.as_ref().map_err(|error| error.to_string())?;
+        for stand in &stands {
             print!(" | {:8.3}", hidden(&|ray| stand.transmittance(ray).mean()));
         }
         println!();
