@@ -1,4 +1,6 @@
-//! The invariants of `docs/architecture.md`: mostly about what is absent.
+//! The invariants of `docs/architecture.md`: mostly about what is absent; and that the pages hold together.
+
+mod pages;
 
 use std::collections::BTreeSet;
 use std::fs;
