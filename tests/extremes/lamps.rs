@@ -29,8 +29,9 @@ fn luminaires() {
         let lamp = Luminaire {
             position: toward * distance as f32,
             world_from_luminaire: Mat3::IDENTITY,
-            distribution: Distribution::isotropic(1.0).into(),
+            distribution: Distribution::isotropic(1.0),
             spectrum: Spectrum::ONE,
+            glints: true,
         };
         let place = Place { position: Vec3::ZERO, error: 0.0, normal: Vec3::Y, seed: 0 };
         let found = f64::from(lamp.irradiance(&place, &Vacuum)[0]);

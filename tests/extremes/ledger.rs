@@ -40,7 +40,7 @@ impl Ledger {
         let mut broken = Vec::new();
         for (law, (off, bound, at)) in self.worst.into_inner() {
             println!("{:18} {law:44} {off:9.2e} of {bound:8.1e}  {at}", self.model);
-            if !(off <= bound) {
+            if off.is_nan() || off > bound {
                 broken.push(format!("{law}: {off} where {bound} is allowed, at {at}"));
             }
         }

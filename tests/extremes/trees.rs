@@ -33,7 +33,7 @@ fn stands() {
     let mesh = grow(&Growth { leaves: 600, ..Growth::usual(Form::Spreading, 9.0, 1) }).expect("a tree");
     let species = bake(&mesh, &Bake { rows: 64, ..Bake::default() }).expect("a species");
     for [height, far, altitude, azimuth] in
-        inputs([(-2.0, 3.0), (-2.0, 5.0), (-1.57, 1.57), (0.0, 6.28)], 1500)
+        inputs([(-2.0, 3.0), (-2.0, 5.0), (-1.57, 1.57), (0.0, std::f64::consts::TAU)], 1500)
     {
         let height = power(height) as f32;
         let tree = Placed { species: 0, position: Vec3::ZERO, height, rotation: azimuth as f32 };

@@ -24,6 +24,9 @@ pub struct Measure {
     /// What errors are differences to.
     #[arg(long, value_enum, default_value_t)]
     pub against: Against,
+    /// Walks from each pixel and sensor point with --against judge; its noise falls with their root, its time grows with them.
+    #[arg(long, default_value_t = 256, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1 << 24))]
+    pub walks: u32,
     /// Runs of each setting, of whose times the median counts.
     #[arg(long, default_value_t = 3, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
     pub runs: u16,
@@ -44,6 +47,8 @@ pub enum Against {
     Best,
     /// The preset `reference`, with what --set says.
     Reference,
+    /// Random walks that share no stage with the pipeline; what they do not see of the scene is said.
+    Judge,
 }
 
 /// What of a scene is measured.

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
     let settings = sweep::settings(&args.knob, args.each);
     check(&settings, &trials)?;
 
-    let (done, truth) = all(args.against, &settings, &trials)?;
+    let (done, truth) = all((args.against, args.walks), &settings, &trials)?;
     let measure = truth.as_ref().unwrap_or(&done[done.len() - 1]);
     let mut rows =
         done.iter().map(|trial| Row::new(trial, &measure.answer)).collect::<Result<Vec<_>, _>>()?;
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
 
 /// All trials, and what they are measured by where that is none of them.
 fn all(
-    against: Against,
+    (against, walks): (Against, u32),
     settings: &[Vec<(String, String)>],
     trials: &Trials,
 ) -> Result<(Vec<Trial>, Option<Trial>), Error> {
@@ -84,6 +84,10 @@ fn all(
             let view = args::View { preset: Preset::Reference, ..trials.view.clone() };
             let once = Trials { runs: 1, ..*trials };
             Some(once.run_view(&view, &[("preset".to_owned(), "reference".to_owned())])?)
+        }
+        Against::Judge => {
+            eprintln!("the judge");
+            Some(trials.judge(walks)?)
         }
     };
     Ok((done, truth))
@@ -145,16 +149,17 @@ fn encode(path: &Path, report: &Report) -> Result<Vec<u8>, Error> {
 fn facts(args: &args::Measure, site: &str, measure: &Trial) -> Vec<String> {
     let set: Vec<String> = args.view.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
     let set = if set.is_empty() { String::new() } else { format!(", with {}", set.join(" ")) };
-    let took = measure.seconds.iter().flatten().sum::<f64>();
+    let (name, took) = (words(&measure.setting), measure.seconds.iter().flatten().sum::<f64>());
+    let own = match measure.noise {
+        Some(noise) => format!("of them {:.2} % are its own noise", 100.0 * noise),
+        None => "its own error is not in them".to_owned(),
+    };
     vec![
         format!("keikan {}. {site}", env!("CARGO_PKG_VERSION")),
         format!(
             "Preset {:?}{set}. Times are without loading, medians of {} runs.",
             args.view.preset, args.runs
         ),
-        format!(
-            "Errors are differences to {}, which took {took:.2} s; its own error is not in them.",
-            words(&measure.setting)
-        ),
+        format!("Errors are differences to {name}, which took {took:.2} s; {own}."),
     ]
 }

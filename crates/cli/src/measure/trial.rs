@@ -1,11 +1,12 @@
 //! One setting, run: how long it took, how much memory, and what came out.
 
 use std::path::Path;
+use std::time::Instant;
 
 use scene::Scene;
 
 use crate::args::{Only, View};
-use crate::assemble::Measuring;
+use crate::assemble::{Judge, Measuring, Walks};
 use crate::output::{self, Picture};
 use crate::pipeline::Monitor;
 use crate::plan::Plan;
@@ -25,6 +26,8 @@ pub(super) struct Trial {
     pub(super) runs: Vec<f64>,
     /// Most memory that the process held meanwhile \[MiB\], where the system tells.
     pub(super) memory_mib: Option<f64>,
+    /// Of random walks: root mean square of the standard errors over the mean, of the picture, or of the sensors without one.
+    pub(super) noise: Option<f64>,
 }
 
 /// What comes out.
@@ -77,7 +80,48 @@ impl Trials<'_> {
         }
         let memory_mib = report::peak_memory_mib().filter(|_| forgotten);
         let runs = seconds[usize::from(seconds[0].is_empty())].clone();
-        Ok(Trial { setting: setting.to_vec(), answer, seconds: seconds.map(median), runs, memory_mib })
+        Ok(Trial {
+            setting: setting.to_vec(),
+            answer,
+            seconds: seconds.map(median),
+            runs,
+            memory_mib,
+            noise: None,
+        })
+    }
+
+    /// What random walks say, `samples` of them from each pixel and sensor point; warns of what they do not see.
+    ///
+    /// # Errors
+    /// As [`Judge::new`].
+    pub(super) fn judge(&self, samples: u32) -> Result<Trial, Error> {
+        let plan = Plan::new(self.scene, self.view)?;
+        let walks = Walks { samples, seed: 1 };
+        let judge = Judge::new(&plan, self.scene)?;
+        judge.omitted.iter().for_each(|what| eprintln!("warning: the judge: {what}"));
+        let mut answer = Answer { picture: None, lux: Vec::new() };
+        let (mut seconds, mut noise) = ([None; 2], None);
+        if self.only != Some(Only::Picture) && !self.scene.sensors.is_empty() {
+            let start = Instant::now();
+            let judged = judge.lux(self.scene, &walks);
+            seconds[1] = Some(start.elapsed().as_secs_f64());
+            noise = relative(
+                &judged.iter().map(|point| point.error).collect::<Vec<_>>(),
+                &judged.iter().map(|point| point.value).collect::<Vec<_>>(),
+            );
+            answer.lux = judged.iter().map(|point| point.value).collect();
+        }
+        if self.only != Some(Only::Lux) {
+            let start = Instant::now();
+            let (film, errors) = judge.picture(&plan, self.scene, &walks)?;
+            seconds[0] = Some(start.elapsed().as_secs_f64());
+            answer.picture = output::develop(&film).into_iter().next();
+            let luminance =
+                answer.picture.iter().flat_map(|picture| picture.luminance.iter().map(|y| f64::from(*y)));
+            noise = relative(&errors, &luminance.collect::<Vec<_>>());
+        }
+        let setting = vec![("judge".to_owned(), format!("{samples} walks"))];
+        Ok(Trial { setting, answer, seconds, runs: Vec::new(), memory_mib: None, noise })
     }
 
     fn picture(&self, view: &View) -> Result<(Picture, f64), Error> {
@@ -100,6 +144,13 @@ impl Trials<'_> {
         }
         Ok((table.rows.iter().map(|row| row.total).collect(), seconds.0[0].1))
     }
+}
+
+/// Root mean square of errors over the mean of values; none of none.
+fn relative(errors: &[f64], values: &[f64]) -> Option<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let square = errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64;
+    (mean > 0.0).then(|| square.sqrt() / mean)
 }
 
 /// The middle value, or the mean of the two in the middle; none of none.
