@@ -13,9 +13,10 @@
 //! baked from. Within a crown light fades as in a cloud of even density, sheltered by clumps on the mean of all
 //! directions: leaves are up to a third too dark where the sun stands behind the viewer (all that one sees is then lit), a
 //! dense round crown seen from the level is up to two fifths too bright; in between, luminance is within a sixth. Silhouettes are those of one view,
-//! all around: the share that is hidden is within a tenth of the mesh's, a thin column seen from straight above a sixth too much; alpha of single pixels is off by
-//! 0.07 to 0.24 (root mean square). The sun's light that is taken from the ground is within a tenth, the sky's within a
-//! sixth. Three planes are within 0.03 of four, two within 0.1; without any, a fifth to half is left at 60° and nothing from above. Nearer than a tree's own height, above
+//! all around: the share that is hidden is within a tenth of the mesh's from twice the tree's height on, of a thin column seen from straight above a
+//! quarter too much; alpha of single pixels is off by 0.07 to 0.2 (root mean square) there and by 0.16 to 0.37 at one height. The sun's light
+//! that is taken from the ground in the mesh's shadow is within a ninth, the sky's within a
+//! sixth. Three planes are within 0.03 of four on the mean; without any, a fifth to half is left at 60° and nothing from above. Nearer than a tree's own height, above
 //! all from below, horizontal planes show as veils at the crown's border, and from within its crown a tree is flat.
 //! Planes are set for each ray to a lamp, so that the way back is as dark: they differ slightly over a shadow. Extended light is asked for once per tree and ray. A vertical plane turns at once where the eye passes over its
 //! axis. Shadows of distant light are read 4.7 mm wide for each metre of their way, half of what the sun's disc makes, whatever the
