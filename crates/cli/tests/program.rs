@@ -174,7 +174,7 @@ fn plan_and_schema_are_data() {
     let done = keikan(&folder, &["plan", "--json"]);
     let plan: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(plan["settings"]["visibility"], "scanline");
-    assert!(text(&keikan(&folder, &["plan"]).stdout).contains("no [[water]]"));
+    assert!(text(&keikan(&folder, &["plan"]).stdout).contains("waves on 1, which do nothing to light"));
     let schema: serde_json::Value = serde_json::from_slice(&keikan(&folder, &["schema"]).stdout).unwrap();
     assert!(schema["properties"]["camera"].is_object());
 }
@@ -217,12 +217,15 @@ fn the_rule_for_shadows_and_lamps_beyond_it_are_named() {
 fn lux_are_a_table() {
     let folder = folder("lux");
     let csv = text(&keikan(&folder, &["lux"]).stdout);
-    assert!(csv.starts_with("sensor,point,x_m,y_m,z_m,total_lx,error_lx,sun_lx,sky_lx"), "{csv}");
-    assert_eq!(csv.lines().count(), 1 + 24 + 2);
+    assert!(
+        csv.starts_with("sensor,point,x_m,y_m,z_m,total_lx,error_lx,direct_lx,reflected_lx,through_lx,"),
+        "{csv}"
+    );
+    assert_eq!(csv.lines().count(), 1 + 24 + 2 + 25);
     let table: serde_json::Value =
         serde_json::from_slice(&keikan(&folder, &["lux", "--json"]).stdout).unwrap();
     for row in table["rows"].as_array().unwrap() {
         let parts: f64 = row["parts"].as_array().unwrap().iter().map(|p| p.as_f64().unwrap()).sum();
-        assert!((row["total"].as_f64().unwrap() - parts).abs() <= 1e-9 * parts); // a sum of five f64
+        assert!((row["total"].as_f64().unwrap() - parts).abs() <= 1e-9 * parts); // a sum of 18 f64
     }
 }
