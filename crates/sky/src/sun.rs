@@ -60,8 +60,20 @@ impl Sun {
         1.0 - (x.acos() - x * (1.0 - x * x).sqrt()) / PI
     }
 
-    /// The directions of the disc that are above the horizon, for one seed.
+    /// The directions of the disc that are above the horizon, for one seed; where a sliver is that none has met, its middle.
     fn directions(&self, seed: u32) -> impl Iterator<Item = Vec3> {
+        let missed = self.sampled(seed).next().is_none();
+        self.sampled(seed).chain(missed.then(|| self.sliver()))
+    }
+
+    /// Halfway between the horizon and the disc's upper edge.
+    fn sliver(&self) -> Vec3 {
+        let height = (0.5 * (self.toward.y + self.sin_radius())).max(0.0);
+        let level = self.toward.with_y(0.0).normalize_or(Vec3::NEG_Z);
+        level * (1.0 - height * height).sqrt() + Vec3::Y * height
+    }
+
+    fn sampled(&self, seed: u32) -> impl Iterator<Item = Vec3> {
         let sin = self.sin_radius();
         let count = if sin > 0.0 { self.samples.max(1) } else { 1 };
         let spread = if count > 1 { sin } else { 0.0 };
