@@ -11,7 +11,7 @@ use std::str::FromStr;
 use clap::{Args, Parser, Subcommand};
 
 use crate::effort::Wanted;
-use crate::frames::{Day, Frames};
+use crate::frames::{Day, Frames, clock};
 use crate::knobs::Preset;
 
 pub use measure::{Against, Measure, Only};
@@ -84,12 +84,23 @@ pub struct View {
     pub set: Vec<(String, String)>,
 }
 
+/// When a scene is looked at.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct Moment {
+    /// Time of day by the site's clock, on its date, in place of the scene's own: HH:MM. Sun, sky and weather follow; lamps stay on.
+    #[arg(long, value_name = "HH:MM", value_parser = clock)]
+    pub time: Option<f64>,
+}
+
 /// `keikan render`.
 #[derive(Args, Clone, Debug)]
 pub struct Render {
     /// The scene and the view of it.
     #[command(flatten)]
     pub view: View,
+    /// When.
+    #[command(flatten)]
+    pub moment: Moment,
     /// Where to write; .exr and .png tell the format; may be repeated. Default: the scene's name with both.
     #[arg(short, long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
@@ -184,6 +195,9 @@ pub struct PlanArgs {
     /// The scene and the view of it.
     #[command(flatten)]
     pub view: View,
+    /// When.
+    #[command(flatten)]
+    pub moment: Moment,
 }
 
 /// `keikan lux`.
@@ -192,6 +206,9 @@ pub struct Lux {
     /// The scene.
     #[command(flatten)]
     pub view: View,
+    /// When.
+    #[command(flatten)]
+    pub moment: Moment,
     /// With the least effort that leaves no more error than this over all sensor points, such as 2%, as `keikan render` does.
     #[arg(long, value_name = "SHARE")]
     pub error: Option<Wanted>,

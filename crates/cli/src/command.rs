@@ -60,8 +60,16 @@ pub(crate) fn load(path: Option<&Path>) -> Result<Scene, Error> {
     })
 }
 
+/// The same at a time of day.
+pub(crate) fn load_at(path: Option<&Path>, moment: args::Moment) -> Result<Scene, Error> {
+    let scene = load(path)?;
+    let Some(clock) = moment.time else { return Ok(scene) };
+    let beyond = || Error::Usage(format!("--time: {clock} s after midnight are beyond the calendar"));
+    Ok(scene.at_time(scene.site.at_local(clock).ok_or_else(beyond)?)?)
+}
+
 fn plan(args: &args::PlanArgs, json: bool) -> Result<(), Error> {
-    let scene = load(args.view.scene.as_deref())?;
+    let scene = load_at(args.view.scene.as_deref(), args.moment)?;
     warn(&scene);
     let mut plan = Plan::new(&scene, &args.view)?;
     caution(&plan);
@@ -72,7 +80,7 @@ fn plan(args: &args::PlanArgs, json: bool) -> Result<(), Error> {
 }
 
 fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
-    let scene = load(args.view.scene.as_deref())?;
+    let scene = load_at(args.view.scene.as_deref(), args.moment)?;
     warn(&scene);
     if scene.sensors.is_empty() {
         return Err(Error::Usage("the scene has no [[sensor]]: nothing to measure".to_owned()));
@@ -103,7 +111,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let outputs = outputs(args)?;
     let targets: Vec<Target> = outputs.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let mut seconds = Timings::default();
-    let scene = seconds.time("load", || load(args.view.scene.as_deref()))?;
+    let scene = seconds.time("load", || load_at(args.view.scene.as_deref(), args.moment))?;
     let (mut studio, shot, error) = match args.error {
         Some(wanted) => {
             let asked = (&scene, &args.view, args.develop.layers);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::View;
+use super::{Moment, View};
 use crate::measure::Sweep;
 
 /// `keikan measure`.
@@ -14,6 +14,9 @@ pub struct Measure {
     /// The scene and the view of it; 480 pixels wide where no size is given.
     #[command(flatten)]
     pub view: View,
+    /// When.
+    #[command(flatten)]
+    pub moment: Moment,
     /// A knob or stage and what it is set to in turn: NAME=A,B,C, or NAME=LOW..HIGH in six steps of even ratio, or
     /// NAME=LOW..HIGH/STEP; may be repeated: then all combinations.
     #[arg(long, value_name = "NAME=VALUES", required = true)]

@@ -65,7 +65,7 @@ pub struct Measuring {
     pub warnings: Vec<String>,
 }
 
-/// How many times fewer patches, or longer ones, the coarser ones are.
+/// How many times fewer patches, or longer ones and links of larger shares, the coarser ones are.
 const COARSER: [f64; 2] = [4.0, 2.0];
 
 impl Measuring {
@@ -98,7 +98,7 @@ impl Measuring {
     }
 }
 
-/// The settings with fewer patches.
+/// The settings with fewer patches, and coarser links between them.
 fn coarser(plan: &Plan) -> Result<Settings, Error> {
     let mut settings = plan.settings.clone();
     let [fewer, longer] = COARSER;
@@ -108,5 +108,7 @@ fn coarser(plan: &Plan) -> Result<Settings, Error> {
         let edge = (edge * longer).min(1e6);
         settings.set("interreflection.patch", &edge.to_string(), "keikan lux")?;
     }
+    let share = (settings.number("interreflection.share") * longer).min(1.0);
+    settings.set("interreflection.share", &share.to_string(), "keikan lux")?;
     Ok(settings)
 }

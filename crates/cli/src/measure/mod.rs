@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub use sweep::Sweep;
 
 use crate::args::{self, Against, Size};
-use crate::command::{pretty, say};
+use crate::command::{self, pretty, say};
 use crate::knobs::Preset;
 use crate::output::{self, Target};
 use crate::plan::Plan;
@@ -38,7 +38,8 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
     let name = trial::name(args.view.scene.as_deref());
     let outputs = outputs(args, &name)?;
     let targets = outputs.iter().map(|path| Target::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let scene = trial::load(args.view.scene.as_deref())?;
+    let scene = command::load_at(args.view.scene.as_deref(), args.moment)?;
+    command::warn(&scene);
     let mut view = args.view.clone();
     view.size = view.size.or(Some(Size { width: WIDTH, height: None }));
     let trials = Trials { scene: &scene, view: &view, only: args.only, runs: args.runs, monitor: &monitor };

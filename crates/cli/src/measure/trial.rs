@@ -12,7 +12,7 @@ use crate::pipeline::Monitor;
 use crate::plan::Plan;
 use crate::report::{self, Timings};
 use crate::studio::{FrameSpec, Studio};
-use crate::{Error, command, lux};
+use crate::{Error, lux};
 
 /// What a setting gives and takes.
 pub(super) struct Trial {
@@ -170,13 +170,6 @@ pub(super) fn name(scene: Option<&Path>) -> String {
 /// A setting in words.
 pub(super) fn words(setting: &[(String, String)]) -> String {
     setting.iter().map(|(knob, value)| format!("{knob}={value}")).collect::<Vec<_>>().join(" ")
-}
-
-/// The scene that is asked for, with its warnings said.
-pub(super) fn load(path: Option<&Path>) -> Result<Scene, Error> {
-    let scene = command::load(path)?;
-    command::warn(&scene);
-    Ok(scene)
 }
 
 #[cfg(test)]
