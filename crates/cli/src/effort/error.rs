@@ -36,6 +36,13 @@ impl Off {
     }
 }
 
+impl Off {
+    /// What it is at most, but for one chance in six.
+    pub(super) fn most(self) -> f64 {
+        self.relative_rmse + self.uncertainty
+    }
+}
+
 impl fmt::Display for Off {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.2} % ± {:.2} %", 100.0 * self.relative_rmse, 100.0 * self.uncertainty)

@@ -63,8 +63,28 @@ impl<'a> Base<'a> {
 
     /// What a level sets of what nobody else has.
     fn set(&self, level: Level) -> Vec<(String, String)> {
-        let set = level.settings(|name| self.settings.is_set(name));
+        let set = level.settings(|name| self.settings.is_set(name) || !self.matters(name));
         set.into_iter().filter(|(name, value)| self.settings.choice(name) != value).collect()
+    }
+
+    /// Whether a knob has anything to decide here.
+    fn matters(&self, knob: &str) -> bool {
+        let (scene, settings) = (self.scene, &self.settings);
+        match knob.split_once('.').map_or(knob, |(group, _)| group) {
+            "water" => !scene.waters.is_empty(),
+            "trees" => !scene.trees.is_empty(),
+            "lamp" => !scene.area_lights.is_empty(),
+            "body" => !scene.solids.is_empty(),
+            "interreflection" => settings.choice("interreflection") != "off",
+            "samples" => settings.choice("visibility") == "rays",
+            "sky" => match settings.choice("sky.visibility") {
+                _ if knob.starts_with("sky.map.") => settings.choice("sky.map") == "on",
+                "cuboid" => matches!(knob, "sky.elements" | "sky.parts"),
+                "bands" => knob == "sky.bands",
+                _ => matches!(knob, "sky.rays" | "sky.sensor-rays" | "sky.patches"),
+            },
+            _ => true,
+        }
     }
 
     /// The view with that on top.
@@ -119,7 +139,7 @@ impl<S: Subject> Judge<'_, S> {
     /// How far a few numbers of this effort are off.
     fn pilot(&mut self, level: Level) -> Result<f64, Error> {
         let numbers = self.subject.some(level, Purpose::Pilot)?;
-        Ok(Off::new(&numbers, self.truth(level, Purpose::Pilot)?).relative_rmse)
+        Ok(Off::new(&numbers, self.truth(level, Purpose::Pilot)?).most())
     }
 
     /// The least effort that the pilot finds good enough; the highest where none is.
@@ -143,7 +163,8 @@ impl<S: Subject> Judge<'_, S> {
     }
 }
 
-/// Finds the effort by a pilot of a few numbers, makes the whole and judges it by others; again with more while that is too much.
+/// Finds the effort by a pilot of a few numbers, makes the whole and judges it by others; again with more while that, with its own
+/// uncertainty, is too much.
 fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Verdict), Error> {
     let start = Instant::now();
     let mut judge = Judge { subject, kept: Vec::new() };
@@ -154,7 +175,7 @@ fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Ve
         let seconds = begun.elapsed().as_secs_f64();
         let numbers = judge.subject.of(&whole, Purpose::Check);
         let reached = Off::new(&numbers, judge.truth(level, Purpose::Check)?);
-        if reached.relative_rmse <= wanted.0 || level == S::TOP {
+        if reached.most() <= wanted.0 || level == S::TOP {
             let seconds_besides = start.elapsed().as_secs_f64() - seconds;
             let (asked, effort, set) = (wanted.0, level.0, judge.subject.base().set(level));
             return Ok((
@@ -162,14 +183,18 @@ fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Ve
                 Verdict { asked, reached, effort, set, seconds, seconds_besides, what: S::WHAT },
             ));
         }
-        level = expected((level, S::TOP), reached.relative_rmse, wanted.0);
+        level = expected((level, S::TOP), reached.most(), wanted.0);
     }
 }
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { asked, reached, effort, seconds, seconds_besides, what, .. } = self;
-        let missed = if reached.relative_rmse > *asked { ", not reached" } else { "" };
+        let missed = match (reached.relative_rmse > *asked, reached.most() > *asked) {
+            (true, _) => ", not reached",
+            (_, true) => ", perhaps not reached",
+            _ => "",
+        };
         writeln!(
             f,
             "error: asked {:.2} %, found {reached}{missed} ({} {what} made again with much more effort)",

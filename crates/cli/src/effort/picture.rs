@@ -14,7 +14,7 @@ use crate::report::Timings;
 use crate::studio::{FrameSpec, Shot, Studio};
 
 /// Pixels to choose by, and as many to check by.
-const PIXELS: usize = 256;
+const PIXELS: usize = 144;
 
 /// A picture with no more than `wanted` error against much more effort, and what that took.
 ///
