@@ -11,6 +11,7 @@ use crate::ledger::{Ledger, drawn, power};
 #[test]
 fn rays_of_all_sizes() {
     let ledger = Ledger::new("ray");
+    let mut differ = 0;
     let corner = || proptest::array::uniform3(-1.0f32..1.0);
     let cases = (
         proptest::collection::vec(proptest::array::uniform3(corner()), 1..60),
@@ -45,12 +46,14 @@ fn rays_of_all_sizes() {
         }
         // At an edge the two may disagree by rounding: then neither is far from it.
         let same = near.map(|hit| hit.triangle) == truth.map(|hit| hit.triangle);
-        ledger.note("as every face in turn", f64::from(u8::from(!same)), 1.0, at);
+        differ += u32::from(!same);
         ledger.holds(
             "blocked where something is met",
             fast.transmittance(&ray).is_zero() == near.is_some(),
             at,
         );
     }
+    // Of 400 rays none is within rounding of an edge by chance but one in thousands.
+    ledger.note("as every face in turn: share of rays that differ", f64::from(differ) / 400.0, 0.005, "all");
     ledger.close();
 }

@@ -64,8 +64,15 @@ pub(crate) fn load(path: Option<&Path>) -> Result<Scene, Error> {
 pub(crate) fn load_at(path: Option<&Path>, moment: args::Moment) -> Result<Scene, Error> {
     let scene = load(path)?;
     let Some(clock) = moment.time else { return Ok(scene) };
+    if !scene.follows_time() {
+        let what = "--time: nothing changes with the time in this scene: its sun is not placed by [site]";
+        return Err(Error::Usage(what.to_owned()));
+    }
     let beyond = || Error::Usage(format!("--time: {clock} s after midnight are beyond the calendar"));
-    Ok(scene.at_time(scene.site.at_local(clock).ok_or_else(beyond)?)?)
+    let mut then = scene.at_time(scene.site.at_local(clock).ok_or_else(beyond)?)?;
+    // Those of the time alone come with it.
+    then.warnings.splice(0..0, scene.warnings);
+    Ok(then)
 }
 
 fn plan(args: &args::PlanArgs, json: bool) -> Result<(), Error> {
@@ -103,7 +110,17 @@ fn illuminances(args: &args::Lux, json: bool) -> Result<(), Error> {
     }
     table.uniformity.iter().for_each(|sensor| eprintln!("{sensor}"));
     verdict.iter().for_each(|verdict| eprintln!("{verdict}"));
-    say(&if json { pretty(&table) } else { table.to_string() })
+    say(&if json { pretty(&Measured { table: &table, error: verdict }) } else { table.to_string() })
+}
+
+/// What `keikan lux --json` says.
+#[derive(serde::Serialize)]
+struct Measured<'a> {
+    #[serde(flatten)]
+    table: &'a lux::Table,
+    /// What error was asked for and what came of it; left out where none was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<effort::Verdict>,
 }
 
 fn render(args: &args::Render, json: bool) -> Result<(), Error> {

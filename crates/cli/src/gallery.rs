@@ -8,7 +8,7 @@ use image::{Rgb, RgbImage};
 use serde::Deserialize;
 
 use crate::Error;
-use crate::args::{Cli, Gallery};
+use crate::args::{Cli, Command, Gallery};
 use crate::command::dispatch;
 use crate::output::{self, Target};
 
@@ -47,7 +47,7 @@ struct Sheet {
     rows: Vec<Vec<String>>,
     columns: Vec<Vec<String>>,
     /// White pixels between pictures.
-    gap: u32,
+    gap: u8,
     #[serde(default, rename = "now")]
     _now: Option<String>,
 }
@@ -87,6 +87,14 @@ pub(crate) fn run(args: &Gallery) -> Result<(), Error> {
     for example in list.example.iter().filter(|example| example.outputs.iter().any(|output| wanted(output))) {
         eprintln!("not made here: cargo {}", example.command.join(" "));
     }
+    let named = list.example.iter().any(|example| example.outputs.iter().any(|output| wanted(output)));
+    if count == 0 && !named {
+        let only = args.only.as_deref().unwrap_or_default();
+        return Err(Error::Usage(format!(
+            "{}: no picture's name begins with \"{only}\"",
+            args.list.display()
+        )));
+    }
     eprintln!("{count} pictures made");
     Ok(())
 }
@@ -99,7 +107,10 @@ fn read(path: &Path) -> Result<List, Error> {
 
 fn timed(output: &Path, make: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
     let start = Instant::now();
-    make()?;
+    make().map_err(|error| match error {
+        Error::Interrupted => error,
+        other => Error::Content(format!("{}: {other}", output.display())),
+    })?;
     eprintln!("{}: {:.1} s", output.display(), start.elapsed().as_secs_f64());
     Ok(())
 }
@@ -108,7 +119,11 @@ fn timed(output: &Path, make: impl FnOnce() -> Result<(), Error>) -> Result<(), 
 fn keikan(command: &[String], output: Option<&Path>) -> Result<(), Error> {
     let output = output.into_iter().flat_map(|path| ["-o".into(), path.as_os_str().to_owned()]);
     let words = std::iter::once("keikan".into()).chain(command.iter().map(Into::into)).chain(output);
-    let cli = Cli::try_parse_from(words).map_err(|error| Error::Usage(error.to_string()))?;
+    let cli = Cli::try_parse_from(words)
+        .map_err(|error| Error::Content(format!("keikan {}: {error}", command.join(" "))))?;
+    if matches!(cli.command, Command::Gallery(_)) {
+        return Err(Error::Content("a gallery in a gallery has no end".to_owned()));
+    }
     dispatch(&cli.command, cli.json)
 }
 
@@ -144,19 +159,20 @@ impl Sheet {
     }
 
     fn together(&self, rows: &[Vec<RgbImage>]) -> RgbImage {
-        let across = |row: &Vec<RgbImage>| row.iter().map(|cell| cell.width() + self.gap).sum::<u32>();
+        let gap = u32::from(self.gap);
+        let across = |row: &Vec<RgbImage>| row.iter().map(|cell| cell.width() + gap).sum::<u32>();
         let high = |row: &Vec<RgbImage>| row.iter().map(RgbImage::height).max().unwrap_or(0);
-        let width = rows.iter().map(across).max().unwrap_or(0).saturating_sub(self.gap);
-        let height = rows.iter().map(|row| high(row) + self.gap).sum::<u32>().saturating_sub(self.gap);
+        let width = rows.iter().map(across).max().unwrap_or(0).saturating_sub(gap);
+        let height = rows.iter().map(|row| high(row) + gap).sum::<u32>().saturating_sub(gap);
         let mut whole = RgbImage::from_pixel(width, height, Rgb([255; 3]));
         let mut y = 0;
         for row in rows {
             let mut x = 0;
             for cell in row {
                 image::imageops::replace(&mut whole, cell, i64::from(x), i64::from(y));
-                x += cell.width() + self.gap;
+                x += cell.width() + gap;
             }
-            y += high(row) + self.gap;
+            y += high(row) + gap;
         }
         whole
     }

@@ -1,7 +1,7 @@
 //! Progress on a terminal, and Ctrl-C.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::Duration;
 
@@ -10,8 +10,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::Error;
 use crate::pipeline::Monitor;
 
-/// A monitor that Ctrl-C reaches. A second call in one process shares the first one's signal handler.
+/// The process's monitor, which Ctrl-C reaches, as new: several commands of one process have it one after the other.
 pub(crate) fn monitor() -> Arc<Monitor> {
+    static ONLY: OnceLock<Arc<Monitor>> = OnceLock::new();
+    let monitor = Arc::clone(ONLY.get_or_init(listening));
+    monitor.rendering.store(false, Ordering::Relaxed);
+    monitor.rows.store(0, Ordering::Relaxed);
+    monitor.pieces.store(0, Ordering::Relaxed);
+    monitor
+}
+
+fn listening() -> Arc<Monitor> {
     let monitor = Arc::new(Monitor::default());
     let heard = Arc::clone(&monitor);
     // Only one handler can be set; a library user may have their own, then theirs counts.

@@ -76,7 +76,7 @@ fn a_place_and_a_time_are_enough() {
 fn a_scene_is_asked_for_its_own_sky_and_others() {
     let folder = folder("scene");
     let own = json(&folder, &["sky", "--json"]);
-    assert_eq!(own["sky"]["model"], "clear");
+    assert_eq!(own["sky"]["model"], "physical");
     let noon = json(&folder, &["sky", "--json", "--time", "12:00", "--set", "sky.model=thesis"]);
     assert!(number(&noon["sun"]["altitude"]) > number(&own["sun"]["altitude"]));
     assert_eq!(noon["sky"]["traits"]["turbidity β (Ångström)"], 0.09);

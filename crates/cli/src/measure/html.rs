@@ -20,7 +20,7 @@ pub(super) struct Report<'a> {
     pub(super) truth: &'a Answer,
     pub(super) truth_name: String,
     /// The plot, as SVG.
-    pub(super) plot: Option<&'a str>,
+    pub(super) plot: &'a str,
 }
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;color:#222}\
@@ -42,7 +42,7 @@ impl Report<'_> {
         for fact in &self.facts {
             page += &format!("<p>{}</p>\n", escaped(fact));
         }
-        page += self.plot.unwrap_or_default();
+        page += self.plot;
         page += &self.table();
         page += &self.pictures()?;
         page += "</body></html>\n";

@@ -43,10 +43,11 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
     let mut view = args.view.clone();
     view.size = view.size.or(Some(Size { width: WIDTH, height: None }));
     let trials = Trials { scene: &scene, view: &view, only: args.only, runs: args.runs, monitor: &monitor };
+    count(args)?;
     let settings = sweep::settings(&args.knob, args.each);
-    check(&settings, &trials)?;
+    check(args, &settings, &trials)?;
 
-    let (done, truth) = all((args.against, args.walks), &settings, &trials)?;
+    let (done, truth) = all(args, &settings, &trials)?;
     let measure = truth.as_ref().unwrap_or(&done[done.len() - 1]);
     let mut rows =
         done.iter().map(|trial| Row::new(trial, &measure.answer)).collect::<Result<Vec<_>, _>>()?;
@@ -59,7 +60,7 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
         trials: &done,
         truth: &measure.answer,
         truth_name: words(&measure.setting),
-        plot: plot.as_deref(),
+        plot: &plot,
     };
     let files = targets.into_iter().zip(&outputs).map(|(target, path)| Ok((target, encode(path, &report)?)));
     output::write(&files.collect::<Result<Vec<_>, Error>>()?)?;
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &args::Measure, json: bool) -> Result<(), Error> {
 
 /// All trials, and what they are measured by where that is none of them.
 fn all(
-    (against, walks): (Against, u32),
+    args: &args::Measure,
     settings: &[Vec<(String, String)>],
     trials: &Trials,
 ) -> Result<(Vec<Trial>, Option<Trial>), Error> {
@@ -78,7 +79,12 @@ fn all(
         eprintln!("{} of {}: {}", i + 1, settings.len(), words(setting));
         done.push(trials.run(setting)?);
     }
-    let truth = match against {
+    let truth = match args.against {
+        Against::Best if args.each && args.knob.len() > 1 => {
+            let best = sweep::best(&args.knob);
+            eprintln!("all at their last: {}", words(&best));
+            Some(trials.run(&best)?)
+        }
         Against::Best => None,
         Against::Reference => {
             eprintln!("the reference");
@@ -88,19 +94,30 @@ fn all(
         }
         Against::Judge => {
             eprintln!("the judge");
-            Some(trials.judge(walks)?)
+            Some(trials.judge(args.walks)?)
         }
     };
     Ok((done, truth))
 }
 
-/// Whether every setting can be, before the first runs.
-fn check(settings: &[Vec<(String, String)>], trials: &Trials) -> Result<(), Error> {
-    if settings.len() > MOST {
+/// Whether they are not too many, before they are listed.
+fn count(args: &args::Measure) -> Result<(), Error> {
+    let counts = args.knob.iter().map(|sweep| sweep.values.len());
+    let count = if args.each { counts.sum() } else { counts.fold(1usize, usize::saturating_mul) };
+    if count > MOST {
         return Err(Error::Usage(format!(
-            "--knob: {} combinations are more than {MOST}; --each turns one knob at a time",
-            settings.len()
+            "--knob: {count} settings are more than {MOST}; --each turns one knob at a time"
         )));
+    }
+    Ok(())
+}
+
+/// Whether every setting can be, before the first runs.
+fn check(args: &args::Measure, settings: &[Vec<(String, String)>], trials: &Trials) -> Result<(), Error> {
+    if args.against == Against::Judge && args.view.region.is_some() {
+        return Err(Error::Usage(
+            "--region: the judge makes whole pictures; leave it out, or --size smaller".to_owned(),
+        ));
     }
     if trials.only == Some(args::Only::Lux) && trials.scene.sensors.is_empty() {
         return Err(Error::Usage("--only lux: the scene has no [[sensor]]".to_owned()));
@@ -140,7 +157,7 @@ fn encode(path: &Path, report: &Report) -> Result<Vec<u8>, Error> {
     Ok(match extension(path).as_str() {
         "html" => report.html().map_err(failed)?,
         "json" => pretty(&report.rows),
-        "svg" => report.plot.ok_or_else(|| failed("there is no point to plot".to_owned()))?.to_owned(),
+        "svg" => report.plot.to_owned(),
         _ => Table(report.rows).csv(),
     }
     .into_bytes())
@@ -151,9 +168,13 @@ fn facts(args: &args::Measure, site: &str, measure: &Trial) -> Vec<String> {
     let set: Vec<String> = args.view.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
     let set = if set.is_empty() { String::new() } else { format!(", with {}", set.join(" ")) };
     let (name, took) = (words(&measure.setting), measure.seconds.iter().flatten().sum::<f64>());
-    let own = match measure.noise {
-        Some(noise) => format!("of them {:.2} % are its own noise", 100.0 * noise),
-        None => "its own error is not in them".to_owned(),
+    let noise = ["picture", "sensors"].into_iter().zip(measure.noise).filter_map(|(what, noise)| {
+        noise.map(|noise| format!("{:.2} % of the mean ({what})", 100.0 * noise))
+    });
+    let noise = noise.collect::<Vec<_>>().join(", ");
+    let own = match noise.as_str() {
+        "" => "its own error is not in them".to_owned(),
+        noise => format!("its own noise is {noise}"),
     };
     vec![
         format!("keikan {}. {site}", env!("CARGO_PKG_VERSION")),

@@ -4,22 +4,25 @@ use plotters::prelude::*;
 
 use super::table::Row;
 
+/// Where nothing is off, or nobody can say by how much.
+const NOTHING: &str = "<svg width=\"760\" height=\"40\" xmlns=\"http://www.w3.org/2000/svg\"><text x=\"10\" y=\"25\">no setting has an error to draw</text></svg>\n";
+
 const BLUE: RGBColor = RGBColor(30, 90, 160);
 const PALE: RGBColor = RGBColor(160, 160, 160);
 
 /// The plot, logarithmic both ways, with the front as a line and its settings named; what has no error, being the measure, has no
-/// place on it. None without a point to show.
+/// place on it. An empty one says that there is nothing to show.
 ///
 /// # Errors
 /// What the drawing library says.
-pub(super) fn svg(rows: &[Row]) -> Result<Option<String>, String> {
+pub(super) fn svg(rows: &[Row]) -> Result<String, String> {
     let points: Vec<(f64, f64, &Row)> = rows
         .iter()
         .filter_map(|row| row.point().map(|[seconds, error]| (seconds.max(1e-4), error, row)))
-        .filter(|(_, error, _)| *error > 0.0)
+        .filter(|(_, error, _)| error.is_finite() && *error > 0.0)
         .collect();
     if points.is_empty() {
-        return Ok(None);
+        return Ok(NOTHING.to_owned());
     }
     let span = |value: fn(&(f64, f64, &Row)) -> f64| {
         // Whole decades, which have numbers at their ends.
@@ -63,5 +66,23 @@ pub(super) fn svg(rows: &[Row]) -> Result<Option<String>, String> {
         Ok(())
     };
     let drawn = draw().map_err(|error| error.to_string());
-    drawn.map(|()| Some(text))
+    drawn.map(|()| text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(seconds: f64, error: f64) -> Row {
+        Row { seconds: Some(seconds), relative_rmse: Some(error), ..Row::default() }
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_not() {
+        for rows in [vec![], vec![row(1.0, 0.0)], vec![row(1.0, f64::INFINITY), row(2.0, f64::NAN)]] {
+            assert_eq!(svg(&rows).unwrap(), NOTHING);
+        }
+        let drawn = svg(&[row(1.0, 0.1), row(2.0, f64::INFINITY), row(40.0, 0.001)]).unwrap();
+        assert_eq!(drawn.matches("<circle").count(), 2);
+    }
 }

@@ -61,15 +61,28 @@ fn range(low: &str, rest: &str) -> Result<Vec<String>, String> {
     };
     let mut texts: Vec<String> = values
         .into_iter()
-        .map(|value| if whole { value.round().to_string() } else { format!("{value:.4}") })
+        .map(|value| if whole { value.round().to_string() } else { short(value, [low, high]) })
         .collect();
     texts.dedup();
     Ok(texts)
 }
 
+/// Four digits, but for the ends, which stay as they are.
+fn short(value: f64, ends: [f64; 2]) -> String {
+    let near = |end: f64| (value - end).abs() <= 1e-12 * end.abs();
+    let end = ends.into_iter().find(|end| near(*end));
+    end.or_else(|| format!("{value:.3e}").parse().ok()).unwrap_or(value).to_string()
+}
+
 /// In even ratios, or evenly where there are none.
 fn between(low: f64, high: f64, share: f64) -> f64 {
     if low > 0.0 { low * (high / low).powf(share) } else { low + (high - low) * share }
+}
+
+/// Every knob at its last value.
+pub(super) fn best(sweeps: &[Sweep]) -> Vec<(String, String)> {
+    let last = |sweep: &Sweep| sweep.values.last().map(|value| (sweep.knob.clone(), value.clone()));
+    sweeps.iter().filter_map(last).collect()
 }
 
 /// All combinations, the last knob fastest, or each knob by itself; a setting is a value for some knobs.
@@ -102,7 +115,8 @@ mod tests {
         assert_eq!(values("water.paths=thesis,exact"), ["thesis", "exact"]);
         assert_eq!(values("sky.cuboid=5..15/5"), ["5", "10", "15"]);
         assert_eq!(values("a=1..32"), ["1", "2", "4", "8", "16", "32"]);
-        assert_eq!(values("a=0..0.5"), ["0.0000", "0.1000", "0.2000", "0.3000", "0.4000", "0.5000"]);
+        assert_eq!(values("a=0..0.5"), ["0", "0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(values("a=1e-6..1e-3")[..2], ["0.000001", "0.000003981"]);
         // Roundings of a range that is too short for its steps are one value.
         assert_eq!(values("a=1..3"), ["1", "2", "3"]);
     }
@@ -121,5 +135,6 @@ mod tests {
         assert_eq!(all.len(), 6);
         assert_eq!(all[1], [("a".to_owned(), "1".to_owned()), ("b".to_owned(), "y".to_owned())]);
         assert_eq!(settings(&sweeps, true).len(), 5);
+        assert_eq!(best(&sweeps), [("a".to_owned(), "2".to_owned()), ("b".to_owned(), "z".to_owned())]);
     }
 }

@@ -7,7 +7,7 @@ use crate::Error;
 use crate::compare::{self, Picture};
 
 /// One setting, what it costs and what it is off by.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, Default, serde::Serialize)]
 pub(super) struct Row {
     /// Knobs and their values, in words.
     pub setting: String,
@@ -75,7 +75,8 @@ fn lux_errors(lux: &[f64], truth: &[f64]) -> Option<[f64; 2]> {
     }
     let pairs = || lux.iter().zip(truth).map(|(a, b)| ((a - b).abs(), *b));
     let off: f64 = pairs().map(|(off, _)| off).sum();
-    let mean = if sum > 0.0 { off / sum } else { 0.0 };
+    // Light where there should be none is off by more than any share.
+    let mean = if off == 0.0 { 0.0 } else { off / sum };
     let seen = pairs().filter(|(_, b)| *b > 0.0 && *b >= FAINT * sum / truth.len() as f64);
     Some([mean, seen.map(|(off, b)| off / b).fold(0.0, f64::max)])
 }
@@ -186,6 +187,7 @@ mod tests {
         let [mean, worst] = lux_errors(&[100.0, 0.5], &[100.0, 0.1]).unwrap();
         assert!(mean < 0.005 && worst == 0.0);
         assert_eq!(lux_errors(&[0.0], &[0.0]), Some([0.0, 0.0]));
+        assert_eq!(lux_errors(&[5.0], &[0.0]).unwrap()[0], f64::INFINITY);
     }
 
     #[test]

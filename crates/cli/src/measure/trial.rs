@@ -1,6 +1,7 @@
 //! One setting, run: how long it took, how much memory, and what came out.
 
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use scene::Scene;
@@ -26,8 +27,8 @@ pub(super) struct Trial {
     pub(super) runs: Vec<f64>,
     /// Most memory that the process held meanwhile \[MiB\], where the system tells.
     pub(super) memory_mib: Option<f64>,
-    /// Of random walks: root mean square of the standard errors over the mean, of the picture, or of the sensors without one.
-    pub(super) noise: Option<f64>,
+    /// Of random walks: root mean square of the standard errors over the mean, of the picture and of the sensors.
+    pub(super) noise: [Option<f64>; 2],
 }
 
 /// What comes out.
@@ -86,7 +87,7 @@ impl Trials<'_> {
             seconds: seconds.map(median),
             runs,
             memory_mib,
-            noise: None,
+            noise: [None; 2],
         })
     }
 
@@ -100,12 +101,12 @@ impl Trials<'_> {
         let judge = Judge::new(&plan, self.scene)?;
         judge.omitted.iter().for_each(|what| eprintln!("warning: the judge: {what}"));
         let mut answer = Answer { picture: None, lux: Vec::new() };
-        let (mut seconds, mut noise) = ([None; 2], None);
+        let (mut seconds, mut noise) = ([None; 2], [None; 2]);
         if self.only != Some(Only::Picture) && !self.scene.sensors.is_empty() {
             let start = Instant::now();
             let judged = judge.lux(self.scene, &walks);
             seconds[1] = Some(start.elapsed().as_secs_f64());
-            noise = relative(
+            noise[1] = relative(
                 &judged.iter().map(|point| point.error).collect::<Vec<_>>(),
                 &judged.iter().map(|point| point.value).collect::<Vec<_>>(),
             );
@@ -118,10 +119,15 @@ impl Trials<'_> {
             answer.picture = output::develop(&film).into_iter().next();
             let luminance =
                 answer.picture.iter().flat_map(|picture| picture.luminance.iter().map(|y| f64::from(*y)));
-            noise = relative(&errors, &luminance.collect::<Vec<_>>());
+            noise[0] = relative(&errors, &luminance.collect::<Vec<_>>());
         }
+        self.go_on()?;
         let setting = vec![("judge".to_owned(), format!("{samples} walks"))];
         Ok(Trial { setting, answer, seconds, runs: Vec::new(), memory_mib: None, noise })
+    }
+
+    fn go_on(&self) -> Result<(), Error> {
+        if self.monitor.interrupted.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
     }
 
     fn picture(&self, view: &View) -> Result<(Picture, f64), Error> {
@@ -139,9 +145,7 @@ impl Trials<'_> {
             let plan = Plan::new(self.scene, view)?.at_sensors();
             Ok(lux::measure(self.scene, &Measuring::new(&plan, self.scene)?))
         })?;
-        if self.monitor.interrupted.load(std::sync::atomic::Ordering::Relaxed) {
-            return Err(Error::Interrupted);
-        }
+        self.go_on()?;
         Ok((table.rows.iter().map(|row| row.total).collect(), seconds.0[0].1))
     }
 }
