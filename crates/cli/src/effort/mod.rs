@@ -124,7 +124,7 @@ struct Judge<'a, S> {
 }
 
 impl<S: Subject> Judge<'_, S> {
-    /// What numbers of this effort should have been: by three levels more, whose own errors are a quarter of theirs and less, and by the
+    /// What numbers of this effort should have been: by three levels more, whose own errors are a third of theirs and less, and by the
     /// preset `reference` at least.
     fn truth(&mut self, level: Level, purpose: Purpose) -> Result<&[[f64; 3]], Error> {
         let judge = Level((level.0 + 3).max(6));
