@@ -100,9 +100,13 @@ fn legend(canvas: &mut [[u8; 3]], [width, height]: [usize; 2], left: usize, scal
         }
     }
     text(canvas, width, height, left + GLYPH, GLYPH, unit);
-    for i in 0..=STEPS {
+    // Small pictures have room for few numbers.
+    let room = bottom.saturating_sub(top);
+    let fits = |every: &usize| STEPS.is_multiple_of(*every) && room * every / STEPS > GLYPH;
+    let every = (1..STEPS).find(fits).unwrap_or(STEPS);
+    for i in (0..=STEPS).step_by(every) {
         let share = i as f32 / STEPS as f32;
-        let y = bottom as f32 - share * (bottom.saturating_sub(top)) as f32;
+        let y = bottom as f32 - share * room as f32;
         let label = number(scale.luminance(share));
         text(canvas, width, height, left + 4 * GLYPH, (y as usize).saturating_sub(GLYPH / 2), &label);
     }
