@@ -106,7 +106,7 @@ pub struct Render {
     pub output: Vec<PathBuf>,
     /// With the least effort that leaves no more error than this, such as 2%: found by some pixels beforehand, checked by others
     /// afterwards, all made again with much more effort. The root mean square over the mean; what models leave out is not in it.
-    /// Knobs of [settings] and --set stay.
+    /// Knobs that the scene or --set states stay.
     #[arg(long, value_name = "SHARE", conflicts_with = "maps")]
     pub error: Option<Wanted>,
     /// Keep what is known of the sky's light (sky.map=on) in this file from run to run: a further picture of the same
