@@ -78,7 +78,7 @@ pub const KNOBS: &[Knob] = &[
         name: "sub-scanlines",
         domain: Domain::Integer(1, 64),
         presets: ["4", "8", "16"],
-        doc: "scanlines per pixel row; 4 and 8 leave an RMSE of 0.063 and 0.020 at the park's edges, and 8 take 1.1 times the time of 4",
+        doc: "scanlines per pixel row; 4 and 8 leave an RMSE of 0.063 and 0.020 at the edges of a garden with a pavilion, and 8 take 1.1 times the time of 4",
     },
     Knob {
         name: "scan-rule",
@@ -96,7 +96,7 @@ pub const KNOBS: &[Knob] = &[
         name: "samples",
         domain: Domain::Integer(1, 65536),
         presets: ["4", "16", "256"],
-        doc: "rays per pixel when visibility = rays; time grows with it; 4, 16, 64: RMSE 0.18, 0.066, 0.024 at the park's edges",
+        doc: "rays per pixel when visibility = rays; time grows with it; 4, 16, 64: RMSE 0.18, 0.066, 0.024 at the edges of a garden with a pavilion",
     },
     Knob {
         name: "shadows",
@@ -180,7 +180,7 @@ pub const KNOBS: &[Knob] = &[
         name: "sky.patches",
         domain: Domain::Integer(1, 60),
         presets: ["7", "10", "28"],
-        doc: "rows of patches from horizon to zenith; 7, 10, 14 are 125, 255, 500 patches, as many rays, and leave an RMSE of 1.3, 0.7, 0.46 % in the embedded scene (64 rays: 0.8 %); time grows with the square, and so does memory with maps: 10, 28, 60 rows take 0.14, 0.35, 1.3 KB a point",
+        doc: "rows of patches from horizon to zenith; 7, 10, 14 are 125, 255, 500 patches, as many rays, and leave an RMSE of 1.3, 0.7, 0.46 % in a garden with a pavilion (64 rays: 0.8 %); time grows with the square, and so does memory with maps: 10, 28, 60 rows take 0.14, 0.35, 1.3 KB a point",
     },
     Knob {
         name: "sky.elements",
