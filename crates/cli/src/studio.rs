@@ -62,6 +62,17 @@ impl Studio {
         Self { maps, ..self }
     }
 
+    /// With other settings, of which what stands there and its lights know nothing.
+    pub(crate) fn looking(self, view: args::View) -> Self {
+        Self { view, ..self }
+    }
+
+    /// Without what is known of the lights: with other settings of them.
+    pub(crate) fn lit_anew(self) -> Self {
+        let standing = self.standing.map(Standing::unlinked);
+        Self { standing, lit: None, maps: Maps::default(), ..self }
+    }
+
     /// What is known of the sky's light by now.
     pub fn maps(&mut self) -> &mut Maps {
         &mut self.maps

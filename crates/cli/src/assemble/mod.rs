@@ -98,6 +98,11 @@ impl Standing {
         Ok(Self { traced, occlude, shade, waters, stand, linked: OnceLock::new(), warnings })
     }
 
+    /// Without what is known of what faces see of each other.
+    pub(crate) fn unlinked(self) -> Self {
+        Self { linked: OnceLock::new(), ..self }
+    }
+
     /// The scene's primary sources; `maps` have what is known of the sky's light, and keep what becomes known.
     pub fn light(&self, plan: &Plan, scene: &Scene, maps: &mut Maps) -> Vec<Source> {
         let bodies = self.traced.solids.as_ref().map(|[solids, _]| &**solids as &dyn Bodies);

@@ -2,6 +2,7 @@
 
 use scene::{Scene, Sensor};
 
+use super::group::Effort;
 use super::level::Level;
 use super::sample::{Purpose, numbers};
 use super::{Base, Subject, Verdict, Wanted, honoured};
@@ -51,8 +52,8 @@ impl Measured<'_> {
         scene
     }
 
-    fn measured(&self, scene: &Scene, level: Level) -> Result<(Table, Measuring), Error> {
-        let plan = Plan::new(scene, &self.0.view(level))?.at_sensors();
+    fn measured(&self, scene: &Scene, effort: &Effort) -> Result<(Table, Measuring), Error> {
+        let plan = Plan::new(scene, &self.0.view(effort))?.at_sensors();
         let measuring = Measuring::new(&plan, scene)?;
         Ok((lux::measure(scene, &measuring), measuring))
     }
@@ -68,13 +69,13 @@ impl Subject for Measured<'_> {
         &self.0
     }
 
-    fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
-        let (table, _) = self.measured(&self.sampled(purpose), level)?;
+    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
+        let (table, _) = self.measured(&self.sampled(purpose), effort)?;
         Ok(table.rows.iter().map(|row| [row.total; 3]).collect())
     }
 
-    fn whole(&mut self, level: Level) -> Result<(Table, Measuring), Error> {
-        self.measured(self.0.scene, level)
+    fn whole(&mut self, effort: &Effort) -> Result<(Table, Measuring), Error> {
+        self.measured(self.0.scene, effort)
     }
 
     fn of(&self, (table, _): &(Table, Measuring), purpose: Purpose) -> Vec<[f64; 3]> {

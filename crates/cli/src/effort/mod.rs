@@ -4,10 +4,12 @@
 //! is not in it (`keikan measure` and the book say that).
 
 mod error;
+mod group;
 mod level;
 mod lux;
 mod picture;
 mod sample;
+mod search;
 
 use std::fmt;
 use std::time::Instant;
@@ -16,18 +18,20 @@ use scene::Scene;
 
 pub(crate) use error::Off;
 pub use error::Wanted;
-use level::{Level, expected};
+use group::Effort;
+use level::Level;
 pub(crate) use lux::table;
 pub(crate) use picture::shot;
 use sample::Purpose;
+use search::Search;
 
 use crate::Error;
 use crate::args::View;
 use crate::knobs::Settings;
 use crate::plan::Plan;
 
-/// Where the search begins: below the default, where many pictures are good enough.
-const FIRST: Level = Level(2);
+/// Samples to check by, each unless the last was passed.
+const CHECKS: u32 = 3;
 
 /// What was asked and what came of it.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -36,8 +40,8 @@ pub(crate) struct Verdict {
     pub(crate) asked: f64,
     /// What it is, by pixels or points that nothing was chosen by, made again with much more effort.
     pub(crate) reached: Off,
-    /// Effort of the result: 0, 3, 6 are draft, normal, reference.
-    pub(crate) effort: u8,
+    /// Effort of the result, by groups of knobs: 0, 3, 6 are draft, normal, reference.
+    pub(crate) effort: Effort,
     /// Knobs that differ from the preset asked for.
     pub(crate) set: Vec<(String, String)>,
     /// Seconds for the result itself.
@@ -61,9 +65,9 @@ impl<'a> Base<'a> {
         Self { scene, view, settings: plan.settings }
     }
 
-    /// What a level sets of what nobody else has.
-    fn set(&self, level: Level) -> Vec<(String, String)> {
-        let set = level.settings(|name| self.settings.is_set(name) || !self.matters(name));
+    /// What an effort sets of what nobody else has.
+    fn set(&self, effort: &Effort) -> Vec<(String, String)> {
+        let set = effort.settings(|name| self.settings.is_set(name) || !self.matters(name));
         set.into_iter().filter(|(name, value)| self.settings.choice(name) != value).collect()
     }
 
@@ -73,6 +77,7 @@ impl<'a> Base<'a> {
         match knob.split_once('.').map_or(knob, |(group, _)| group) {
             "water" => !scene.waters.is_empty(),
             "trees" => !scene.trees.is_empty(),
+            "sun" => scene.sun.is_some(),
             "lamp" => !scene.area_lights.is_empty(),
             "body" => !scene.solids.is_empty(),
             "interreflection" => settings.choice("interreflection") != "off",
@@ -88,8 +93,8 @@ impl<'a> Base<'a> {
     }
 
     /// The view with that on top.
-    fn view(&self, level: Level) -> View {
-        View { set: [&self.view.set[..], &self.set(level)].concat(), ..self.view.clone() }
+    fn view(&self, effort: &Effort) -> View {
+        View { set: [&self.view.set[..], &self.set(effort)].concat(), ..self.view.clone() }
     }
 }
 
@@ -101,90 +106,51 @@ trait Subject {
     /// What is sampled: `pixels`, `sensor points`.
     const WHAT: &'static str;
 
-    /// The highest effort it is made with.
+    /// The highest level of any knob.
     const TOP: Level;
 
     /// What it is made from.
     fn base(&self) -> &Base<'_>;
 
     /// A few of its numbers alone, with this effort.
-    fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error>;
+    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error>;
 
     /// All of it.
-    fn whole(&mut self, level: Level) -> Result<Self::Whole, Error>;
+    fn whole(&mut self, effort: &Effort) -> Result<Self::Whole, Error>;
 
     /// The same numbers of the whole.
     fn of(&self, whole: &Self::Whole, purpose: Purpose) -> Vec<[f64; 3]>;
 }
 
-/// Judges answers by those of much more effort, each asked for once.
-struct Judge<'a, S> {
-    subject: &'a mut S,
-    kept: Vec<(Level, Purpose, Vec<[f64; 3]>)>,
-}
-
-impl<S: Subject> Judge<'_, S> {
-    /// What numbers of this effort should have been: by three levels more, whose own errors are a third of theirs and less, and by the
-    /// preset `reference` at least.
-    fn truth(&mut self, level: Level, purpose: Purpose) -> Result<&[[f64; 3]], Error> {
-        let judge = Level((level.0 + 3).max(6));
-        let known = |(level, of, _): &(Level, Purpose, _)| *level == judge && *of == purpose;
-        if !self.kept.iter().any(known) {
-            let numbers = self.subject.some(judge, purpose)?;
-            self.kept.push((judge, purpose, numbers));
-        }
-        Ok(self.kept.iter().find(|kept| known(kept)).map_or(&[], |(.., numbers)| numbers))
-    }
-
-    /// How far a few numbers of this effort are off.
-    fn pilot(&mut self, level: Level) -> Result<f64, Error> {
-        let numbers = self.subject.some(level, Purpose::Pilot)?;
-        Ok(Off::new(&numbers, self.truth(level, Purpose::Pilot)?).most())
-    }
-
-    /// The least effort that the pilot finds good enough; the highest where none is.
-    fn least(&mut self, wanted: f64) -> Result<Level, Error> {
-        let (mut level, mut too_low) = (FIRST, None);
-        loop {
-            let found = self.pilot(level)?;
-            let next = expected((level, S::TOP), found, wanted);
-            let next = if found <= wanted {
-                // Nothing that was too little before.
-                too_low.map_or(next, |low: Level| next.max(Level(low.0 + 1)))
-            } else {
-                too_low = Some(level);
-                next
-            };
-            if next == level || (found <= wanted && next > level) {
-                return Ok(level);
-            }
-            level = next;
-        }
-    }
-}
-
-/// Finds the effort by a pilot of a few numbers, makes the whole and judges it by others; again with more while that, with its own
-/// uncertainty, is too much.
+/// Finds the effort by a pilot of a few numbers, checks it by others, and makes the whole. A check that fails adds its numbers to those
+/// that the effort is chosen by, and others check again. What is said of the result comes from numbers that nothing was chosen by, or
+/// from all together, whichever says more: those that failed before may have met what is rare.
 fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Verdict), Error> {
-    let start = Instant::now();
-    let mut judge = Judge { subject, kept: Vec::new() };
-    let mut level = judge.least(wanted.0)?;
-    loop {
-        let begun = Instant::now();
-        let whole = judge.subject.whole(level)?;
-        let seconds = begun.elapsed().as_secs_f64();
-        let numbers = judge.subject.of(&whole, Purpose::Check);
-        let reached = Off::new(&numbers, judge.truth(level, Purpose::Check)?);
-        if reached.most() <= wanted.0 || level == S::TOP {
-            let seconds_besides = start.elapsed().as_secs_f64() - seconds;
-            let (asked, effort, set) = (wanted.0, level.0, judge.subject.base().set(level));
-            return Ok((
-                whole,
-                Verdict { asked, reached, effort, set, seconds, seconds_besides, what: S::WHAT },
-            ));
+    let (start, wanted) = (Instant::now(), wanted.0);
+    let mut search = Search::new(subject);
+    let mut found = search.least(Effort::LEAST, wanted)?;
+    let mut check = 0;
+    let effort = loop {
+        let (Ok(effort) | Err(effort)) = found;
+        let purpose = Purpose::Check(check);
+        if found.is_err() || check + 1 == CHECKS || search.off(&effort, &[purpose])?.most() <= wanted {
+            break effort;
         }
-        level = expected((level, S::TOP), reached.most(), wanted.0);
-    }
+        search.learn_from(purpose);
+        found = search.least(effort, wanted)?;
+        check += 1;
+    };
+    let begun = Instant::now();
+    let whole = search.subject.whole(&effort)?;
+    let seconds = begun.elapsed().as_secs_f64();
+    let last = [Purpose::Check(check)];
+    let all = [search.samples(), &last].concat();
+    let [last, all] = [&last[..], &all].map(|samples| search.off_whole((&whole, &effort), samples));
+    let (last, all) = (last?, all?);
+    let reached = if all.most() > last.most() { all } else { last };
+    let seconds_besides = start.elapsed().as_secs_f64() - seconds;
+    let set = search.subject.base().set(&effort);
+    Ok((whole, Verdict { asked: wanted, reached, effort, set, seconds, seconds_besides, what: S::WHAT }))
 }
 
 impl fmt::Display for Verdict {
@@ -202,34 +168,41 @@ impl fmt::Display for Verdict {
             reached.count
         )?;
         let set: Vec<String> = self.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
-        writeln!(f, "effort {effort} (3 = normal, 6 = reference): {}", set.join(" "))?;
+        writeln!(f, "effort {effort} (0, 3, 6 = draft, normal, reference): {}", set.join(" "))?;
         write!(f, "{seconds:.2} s for the result, {seconds_besides:.2} s to choose and to check")
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::group::Group;
     use super::*;
 
-    /// Whose error falls by `fall` a level from what it is at level 0, as pilot and check see it.
+    /// Whose error comes from two groups, as pilot and checks see it, and falls by `fall` a level.
     struct Falling<'a> {
         base: Base<'a>,
-        pilot: f64,
-        check: f64,
+        sky: f64,
+        edges: f64,
         fall: f64,
-        made: Vec<u8>,
+        /// What checks see is so many times as much.
+        checked: f64,
+        made: Vec<Effort>,
     }
 
     impl Falling<'_> {
-        fn error(&self, level: Level, purpose: Purpose) -> Vec<[f64; 3]> {
-            let first = if purpose == Purpose::Pilot { self.pilot } else { self.check };
-            let off = first / self.fall.powi(i32::from(level.0));
-            vec![[1.0 + off; 3]; 4]
+        fn off(&self, effort: &Effort) -> f64 {
+            let of = |first: f64, group| first / self.fall.powi(i32::from(effort.level(group).0));
+            of(self.sky, Group::Sky) + of(self.edges, Group::Edges)
+        }
+
+        fn numbers(&self, effort: &Effort, purpose: Purpose) -> Vec<[f64; 3]> {
+            let times = if purpose == Purpose::Pilot { 1.0 } else { self.checked };
+            vec![[1.0 + times * self.off(effort); 3]; 4]
         }
     }
 
     impl Subject for Falling<'_> {
-        type Whole = Level;
+        type Whole = Effort;
         const WHAT: &'static str = "numbers";
         const TOP: Level = Level(6);
 
@@ -237,33 +210,35 @@ mod tests {
             &self.base
         }
 
-        fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
-            Ok(self.error(level, purpose))
+        fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
+            Ok(self.numbers(effort, purpose))
         }
 
-        fn whole(&mut self, level: Level) -> Result<Level, Error> {
-            self.made.push(level.0);
-            Ok(level)
+        fn whole(&mut self, effort: &Effort) -> Result<Effort, Error> {
+            self.made.push(*effort);
+            Ok(*effort)
         }
 
-        fn of(&self, level: &Level, purpose: Purpose) -> Vec<[f64; 3]> {
-            self.error(*level, purpose)
+        fn of(&self, effort: &Effort, purpose: Purpose) -> Vec<[f64; 3]> {
+            self.numbers(effort, purpose)
         }
     }
 
-    fn asked(pilot: f64, check: f64, fall: f64) -> (Verdict, Vec<u8>) {
+    fn asked([sky, edges]: [f64; 2], fall: f64, checked: f64) -> Verdict {
         let scene = crate::command::load(None).unwrap();
         let view = View::default();
         let base = Base::new(&scene, &view, Plan::new(&scene, &view).unwrap());
-        let mut subject = Falling { base, pilot, check, fall, made: Vec::new() };
+        let mut subject = Falling { base, sky, edges, fall, checked, made: Vec::new() };
         let (_, verdict) = honoured(&mut subject, Wanted(0.02)).unwrap();
-        (verdict, subject.made)
+        // The whole is made once, whatever it took to choose.
+        assert_eq!(subject.made, [verdict.effort]);
+        verdict
     }
 
     #[test]
-    fn the_least_effort_is_found() {
+    fn effort_goes_where_the_error_is() {
         for (first, fall) in [(0.2, 1.5), (0.3, 2.5), (0.05, 1.3), (0.019, 1.5), (0.3, 8.0)] {
-            let (verdict, made) = asked(first, first, fall);
+            let verdict = asked([first, 0.0], fall, 1.0);
             // What judges has an error too: of the same sign here, so that differences are smaller.
             let found = |level: u8| {
                 let at = |level: u8| first / f64::powi(fall, i32::from(level));
@@ -272,26 +247,27 @@ mod tests {
             };
             let least = (0..=6).find(|level| found(*level) <= 0.02).unwrap();
             assert!(verdict.reached.relative_rmse <= 0.02, "{verdict}");
-            // Errors that fall faster than is expected may leave it one too high.
-            assert!(
-                verdict.effort >= least && verdict.effort <= least + 1,
-                "{first} {fall}: {} {least}",
-                verdict.effort
-            );
-            assert_eq!(made, [verdict.effort]);
+            let (sky, edges) = (verdict.effort.level(Group::Sky).0, verdict.effort.level(Group::Edges).0);
+            // Errors that fall faster than is expected leave it higher than need be.
+            let spare = if fall > 1.5 { 5 } else { 1 };
+            assert!(sky >= least && sky <= least + spare && edges == 0, "{first} {fall}: {verdict} {least}");
         }
+        let both = asked([0.06, 0.06], 1.5, 1.0);
+        assert!(both.reached.relative_rmse <= 0.02);
+        assert!(both.effort.level(Group::Sky).0 > 0 && both.effort.level(Group::Edges).0 > 0);
     }
 
     #[test]
     fn a_check_that_says_more_is_believed() {
-        let (verdict, made) = asked(0.03, 0.09, 1.5);
-        assert!(verdict.reached.relative_rmse <= 0.02 && made.len() > 1);
+        let [alone, checked] = [1.0, 2.0].map(|checked| asked([0.03, 0.0], 1.5, checked));
+        assert!(checked.reached.relative_rmse <= 0.02, "{checked}");
+        assert!(checked.effort.level(Group::Sky) > alone.effort.level(Group::Sky));
     }
 
     #[test]
     fn what_cannot_be_reached_is_said() {
-        let (verdict, _) = asked(3.0, 3.0, 1.2);
-        assert_eq!(verdict.effort, 6);
+        let verdict = asked([3.0, 0.0], 1.2, 1.0);
+        assert_eq!(verdict.effort.level(Group::Sky), Level(6));
         assert!(verdict.to_string().contains("not reached"));
     }
 }

@@ -2,6 +2,7 @@
 
 use scene::Scene;
 
+use super::group::{Anew, Effort};
 use super::level::Level;
 use super::sample::{Purpose, pixels};
 use super::{Base, Subject, Verdict, Wanted, honoured};
@@ -42,16 +43,23 @@ struct Pictured<'a> {
     region: Region,
     monitor: &'a Monitor,
     /// The last effort that was asked for stays assembled.
-    studio: Option<(Level, Studio)>,
+    studio: Option<(Effort, Studio)>,
 }
 
 impl Pictured<'_> {
     /// With the effort on top of what the view says.
-    fn studio(&mut self, level: Level) -> &mut Studio {
-        let last = self.studio.take().filter(|(last, _)| *last == level).map(|(_, studio)| studio);
-        let new = || Studio::new(self.base.scene.clone(), self.base.view(level), self.layers);
-        let studio = last.unwrap_or_else(new);
-        &mut self.studio.insert((level, studio)).1
+    fn studio(&mut self, effort: &Effort) -> &mut Studio {
+        let view = self.base.view(effort);
+        let studio = match self.studio.take() {
+            None => Studio::new(self.base.scene.clone(), view, self.layers),
+            Some((last, studio)) => match effort.anew(&last) {
+                None => studio,
+                Some(Anew::Eye) => studio.looking(view),
+                Some(Anew::Lights) => studio.looking(view).lit_anew(),
+                Some(Anew::Things) => Studio::new(self.base.scene.clone(), view, self.layers),
+            },
+        };
+        &mut self.studio.insert((*effort, studio)).1
     }
 }
 
@@ -64,15 +72,15 @@ impl Subject for Pictured<'_> {
         &self.base
     }
 
-    fn some(&mut self, level: Level, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
+    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
         let (at, monitor) = (pixels(&self.region, PIXELS, purpose), self.monitor);
-        let found = self.studio(level).pixels(&at, monitor)?;
+        let found = self.studio(effort).pixels(&at, monitor)?;
         Ok(found.iter().map(|rgb| rgb.to_array().map(f64::from)).collect())
     }
 
-    fn whole(&mut self, level: Level) -> Result<Shot, Error> {
+    fn whole(&mut self, effort: &Effort) -> Result<Shot, Error> {
         let monitor = self.monitor;
-        self.studio(level).frame(&FrameSpec::default(), monitor, &mut Timings::default())
+        self.studio(effort).frame(&FrameSpec::default(), monitor, &mut Timings::default())
     }
 
     fn of(&self, whole: &Shot, purpose: Purpose) -> Vec<[f64; 3]> {

@@ -9,15 +9,15 @@ use crate::pipeline::Region;
 pub(super) enum Purpose {
     /// To choose an effort.
     Pilot,
-    /// To judge what it has led to: nothing was chosen by these.
-    Check,
+    /// To judge what it has led to: the first, and further ones where that says no.
+    Check(u32),
 }
 
 impl Purpose {
     fn seed(self) -> u32 {
         match self {
             Self::Pilot => 0x51,
-            Self::Check => 0xC4,
+            Self::Check(number) => 0xC4 ^ scramble(number),
         }
     }
 }
@@ -81,15 +81,15 @@ mod tests {
     #[test]
     fn purposes_have_samples_of_their_own() {
         let region = Region { columns: 0..640, rows: 0..400 };
-        let [pilot, check] = [Purpose::Pilot, Purpose::Check].map(|purpose| pixels(&region, 512, purpose));
+        let [pilot, check] = [Purpose::Pilot, Purpose::Check(0)].map(|purpose| pixels(&region, 512, purpose));
         let pilot: BTreeSet<_> = pilot.into_iter().collect();
         assert!(check.iter().filter(|pixel| pilot.contains(*pixel)).count() < 10);
     }
 
     #[test]
     fn numbers_rise() {
-        let some = numbers(1000, 32, Purpose::Check);
+        let some = numbers(1000, 32, Purpose::Check(0));
         assert!(some.len() == 32 && some.windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!(numbers(5, 32, Purpose::Check), [0, 1, 2, 3, 4]);
+        assert_eq!(numbers(5, 32, Purpose::Check(0)), [0, 1, 2, 3, 4]);
     }
 }
