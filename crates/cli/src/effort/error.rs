@@ -14,29 +14,60 @@ pub(crate) struct Off {
     pub(crate) count: usize,
 }
 
-impl Off {
-    /// Of answers by what they should be, each of one or three numbers.
-    ///
-    /// With q = |a − b|²: r = √mean q, and its standard error by that of the mean, s/√n: s/(2 r √n).
-    pub(super) fn new<const N: usize>(answers: &[[f64; N]], truths: &[[f64; N]]) -> Self {
-        let count = answers.len().min(truths.len());
-        let n = count.max(1) as f64;
-        let squares: Vec<f64> = answers
-            .iter()
-            .zip(truths)
-            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / N as f64)
-            .collect();
-        let mean = truths.iter().flatten().sum::<f64>() / (n * N as f64);
-        let square = squares.iter().sum::<f64>() / n;
-        let spread = squares.iter().map(|q| (q - square).powi(2)).sum::<f64>() / n;
-        let rmse = square.sqrt();
-        let over = |value: f64| if value == 0.0 { 0.0 } else { value / mean };
-        let of_rmse = if rmse > 0.0 { (spread / n).sqrt() / (2.0 * rmse) } else { 0.0 };
-        Self { relative_rmse: over(rmse), uncertainty: over(of_rmse), count }
+/// Answers of a part of a whole, and what they should be.
+#[derive(Clone, Copy)]
+pub(super) struct Stratum<'a> {
+    /// Of the whole.
+    pub(super) share: f64,
+    /// Whether these are all that the part has; else a random few.
+    pub(super) all: bool,
+    pub(super) answers: &'a [[f64; 3]],
+    pub(super) truths: &'a [[f64; 3]],
+}
+
+impl Stratum<'_> {
+    fn count(&self) -> usize {
+        self.answers.len().min(self.truths.len())
+    }
+
+    /// Means of |a − b|² and b, and the squared standard error of the former.
+    fn means(&self) -> [f64; 3] {
+        let n = self.count().max(1) as f64;
+        let square = |(a, b): (&[f64; 3], &[f64; 3])| {
+            a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64
+        };
+        let squares: Vec<f64> = self.answers.iter().zip(self.truths).map(square).collect();
+        let mean_square = squares.iter().sum::<f64>() / n;
+        let spread = squares.iter().map(|q| (q - mean_square).powi(2)).sum::<f64>() / n;
+        let mean = self.truths.iter().flatten().sum::<f64>() / (3.0 * n);
+        [mean_square, mean, if self.all { 0.0 } else { spread / n }]
     }
 }
 
 impl Off {
+    /// Of a few answers, by what they should be.
+    pub(super) fn new(answers: &[[f64; 3]], truths: &[[f64; 3]]) -> Self {
+        Self::stratified(&[Stratum { share: 1.0, all: false, answers, truths }])
+    }
+
+    /// Of a whole by its parts.
+    ///
+    /// With q = |a − b|²: r = √mean q, and its standard error by that of the mean, s/√n: s/(2 r √n).
+    pub(super) fn stratified(strata: &[Stratum]) -> Self {
+        let [mut square, mut mean, mut variance, mut count] = [0.0, 0.0, 0.0, 0.0];
+        for stratum in strata {
+            let [squares, truths, of_squares] = stratum.means();
+            square += stratum.share * squares;
+            mean += stratum.share * truths;
+            variance += stratum.share.powi(2) * of_squares;
+            count += stratum.count() as f64;
+        }
+        let rmse = square.sqrt();
+        let over = |value: f64| if value == 0.0 { 0.0 } else { value / mean };
+        let of_rmse = if rmse > 0.0 { variance.sqrt() / (2.0 * rmse) } else { 0.0 };
+        Self { relative_rmse: over(rmse), uncertainty: over(of_rmse), count: count as usize }
+    }
+
     /// What it is at most, but for one chance in six.
     pub(super) fn most(self) -> f64 {
         self.relative_rmse + self.uncertainty
@@ -72,10 +103,20 @@ mod tests {
 
     #[test]
     fn errors_are_relative_to_the_mean() {
-        let off = Off::new(&[[1.1], [0.9]], &[[1.0], [1.0]]);
+        let off = Off::new(&[[1.1; 3], [0.9; 3]], &[[1.0; 3]; 2]);
         assert!((off.relative_rmse - 0.1).abs() < 1e-12 && off.uncertainty < 1e-12 && off.count == 2);
-        assert_eq!(Off::new(&[[0.0]], &[[0.0]]).relative_rmse, 0.0);
-        assert_eq!(Off::new::<1>(&[], &[]).count, 0);
+        assert_eq!(Off::new(&[[0.0; 3]], &[[0.0; 3]]).relative_rmse, 0.0);
+        assert_eq!(Off::new(&[], &[]).count, 0);
+    }
+
+    /// A thousandth of a picture that is a hundred times too bright, and known to be; the rest is right.
+    #[test]
+    fn parts_count_by_their_share() {
+        let truths = [[1.0; 3]; 4];
+        let part = |share, all, answers| Stratum { share, all, answers, truths: &truths };
+        let off = Off::stratified(&[part(0.999, false, &truths), part(1e-3, true, &[[101.0; 3]; 4])]);
+        assert!((off.relative_rmse - 100.0 * 1e-3f64.sqrt()).abs() < 1e-9 && off.uncertainty == 0.0);
+        assert_eq!(off.count, 8);
     }
 
     #[test]

@@ -36,9 +36,8 @@ impl Measured<'_> {
         self.0.scene.sensors.iter().map(|sensor| sensor.points.len()).sum()
     }
 
-    /// The scene with a sample of its sensor points alone.
-    fn sampled(&self, purpose: Purpose) -> Scene {
-        let wanted = numbers(self.points(), POINTS, purpose);
+    /// The scene with some of its sensor points alone, in rising order.
+    fn with(&self, wanted: &[usize]) -> Scene {
         let mut before = 0;
         let sensor = |sensor: &Sensor| {
             let first = before;
@@ -61,6 +60,7 @@ impl Measured<'_> {
 
 impl Subject for Measured<'_> {
     type Whole = (Table, Measuring);
+    type Place = usize;
     const WHAT: &'static str = "sensor points";
     /// Sensors have many rays as it is.
     const TOP: Level = Level(5);
@@ -69,8 +69,16 @@ impl Subject for Measured<'_> {
         &self.0
     }
 
-    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
-        let (table, _) = self.measured(&self.sampled(purpose), effort)?;
+    fn count(&self) -> usize {
+        self.points()
+    }
+
+    fn sample(&self, purpose: Purpose) -> Vec<usize> {
+        numbers(self.points(), POINTS, purpose)
+    }
+
+    fn some(&mut self, effort: &Effort, places: &[usize]) -> Result<Vec<[f64; 3]>, Error> {
+        let (table, _) = self.measured(&self.with(places), effort)?;
         Ok(table.rows.iter().map(|row| [row.total; 3]).collect())
     }
 
@@ -78,8 +86,12 @@ impl Subject for Measured<'_> {
         self.measured(self.0.scene, effort)
     }
 
-    fn of(&self, (table, _): &(Table, Measuring), purpose: Purpose) -> Vec<[f64; 3]> {
-        let wanted = numbers(self.points(), POINTS, purpose);
-        wanted.into_iter().filter_map(|i| table.rows.get(i)).map(|row| [row.total; 3]).collect()
+    fn of(&self, (table, _): &(Table, Measuring), places: &[usize]) -> Vec<[f64; 3]> {
+        places.iter().filter_map(|i| table.rows.get(*i)).map(|row| [row.total; 3]).collect()
+    }
+
+    /// Of points is not known which are neighbours.
+    fn outstanding(&self, _: &(Table, Measuring)) -> Vec<usize> {
+        Vec::new()
     }
 }

@@ -40,6 +40,8 @@ pub(crate) struct Verdict {
     pub(crate) asked: f64,
     /// What it is, by pixels or points that nothing was chosen by, made again with much more effort.
     pub(crate) reached: Off,
+    /// Which share of the squared error the few pixels or points have that stand out most from what is around them.
+    pub(crate) standing_out: f64,
     /// Effort of the result, by groups of knobs: 0, 3, 6 are draft, normal, reference.
     pub(crate) effort: Effort,
     /// Knobs that differ from the preset asked for.
@@ -103,6 +105,9 @@ trait Subject {
     /// The whole.
     type Whole;
 
+    /// A pixel or a point.
+    type Place: Copy + PartialEq;
+
     /// What is sampled: `pixels`, `sensor points`.
     const WHAT: &'static str;
 
@@ -112,14 +117,23 @@ trait Subject {
     /// What it is made from.
     fn base(&self) -> &Base<'_>;
 
-    /// A few of its numbers alone, with this effort.
-    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error>;
+    /// How many places it has.
+    fn count(&self) -> usize;
+
+    /// Places of a random sample.
+    fn sample(&self, purpose: Purpose) -> Vec<Self::Place>;
+
+    /// The numbers of a few places alone, with this effort.
+    fn some(&mut self, effort: &Effort, places: &[Self::Place]) -> Result<Vec<[f64; 3]>, Error>;
 
     /// All of it.
     fn whole(&mut self, effort: &Effort) -> Result<Self::Whole, Error>;
 
-    /// The same numbers of the whole.
-    fn of(&self, whole: &Self::Whole, purpose: Purpose) -> Vec<[f64; 3]>;
+    /// The numbers of some places of the whole.
+    fn of(&self, whole: &Self::Whole, places: &[Self::Place]) -> Vec<[f64; 3]>;
+
+    /// The few places of the whole that stand out most from what is around them.
+    fn outstanding(&self, whole: &Self::Whole) -> Vec<Self::Place>;
 }
 
 /// Finds the effort by a pilot of a few numbers, checks it by others, and makes the whole. A check that fails adds its numbers to those
@@ -147,15 +161,27 @@ fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Ve
     let all = [search.samples(), &last].concat();
     let [last, all] = [&last[..], &all].map(|samples| search.off_whole((&whole, &effort), samples));
     let (last, all) = (last?, all?);
-    let reached = if all.most() > last.most() { all } else { last };
+    let (reached, standing_out) = if all.0.most() > last.0.most() { all } else { last };
     let seconds_besides = start.elapsed().as_secs_f64() - seconds;
     let set = search.subject.base().set(&effort);
-    Ok((whole, Verdict { asked: wanted, reached, effort, set, seconds, seconds_besides, what: S::WHAT }))
+    Ok((
+        whole,
+        Verdict {
+            asked: wanted,
+            reached,
+            standing_out,
+            effort,
+            set,
+            seconds,
+            seconds_besides,
+            what: S::WHAT,
+        },
+    ))
 }
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { asked, reached, effort, seconds, seconds_besides, what, .. } = self;
+        let Self { asked, reached, standing_out, effort, seconds, seconds_besides, what, .. } = self;
         let missed = match (reached.relative_rmse > *asked, reached.most() > *asked) {
             (true, _) => ", not reached",
             (_, true) => ", perhaps not reached",
@@ -167,6 +193,13 @@ impl fmt::Display for Verdict {
             100.0 * asked,
             reached.count
         )?;
+        if !missed.is_empty() && *standing_out > 0.5 {
+            writeln!(
+                f,
+                "{:.0} % of its square are of a few {what} that stand out, such as glints of lamps without extent (lamp.glints)",
+                100.0 * standing_out
+            )?;
+        }
         let set: Vec<String> = self.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
         writeln!(f, "effort {effort} (0, 3, 6 = draft, normal, reference): {}", set.join(" "))?;
         write!(f, "{seconds:.2} s for the result, {seconds_besides:.2} s to choose and to check")
@@ -184,8 +217,9 @@ mod tests {
         sky: f64,
         edges: f64,
         fall: f64,
-        /// What checks see is so many times as much.
+        /// What checks see is so many times as much, and the one place that stands out.
         checked: f64,
+        glint: f64,
         made: Vec<Effort>,
     }
 
@@ -195,14 +229,25 @@ mod tests {
             of(self.sky, Group::Sky) + of(self.edges, Group::Edges)
         }
 
-        fn numbers(&self, effort: &Effort, purpose: Purpose) -> Vec<[f64; 3]> {
-            let times = if purpose == Purpose::Pilot { 1.0 } else { self.checked };
-            vec![[1.0 + times * self.off(effort); 3]; 4]
+        fn numbers(&self, effort: &Effort, places: &[Place]) -> Vec<[f64; 3]> {
+            let number = |place: &Place| match place {
+                Place::Of(Purpose::Pilot, _) => 1.0 + self.off(effort),
+                Place::Of(..) => 1.0 + self.checked * self.off(effort),
+                Place::Glint => 1.0 + self.glint * self.off(effort),
+            };
+            places.iter().map(|place| [number(place); 3]).collect()
         }
+    }
+
+    #[derive(Clone, Copy, PartialEq)]
+    enum Place {
+        Of(Purpose, u8),
+        Glint,
     }
 
     impl Subject for Falling<'_> {
         type Whole = Effort;
+        type Place = Place;
         const WHAT: &'static str = "numbers";
         const TOP: Level = Level(6);
 
@@ -210,8 +255,16 @@ mod tests {
             &self.base
         }
 
-        fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
-            Ok(self.numbers(effort, purpose))
+        fn count(&self) -> usize {
+            100
+        }
+
+        fn sample(&self, purpose: Purpose) -> Vec<Place> {
+            (0..4).map(|i| Place::Of(purpose, i)).collect()
+        }
+
+        fn some(&mut self, effort: &Effort, places: &[Place]) -> Result<Vec<[f64; 3]>, Error> {
+            Ok(self.numbers(effort, places))
         }
 
         fn whole(&mut self, effort: &Effort) -> Result<Effort, Error> {
@@ -219,16 +272,20 @@ mod tests {
             Ok(*effort)
         }
 
-        fn of(&self, effort: &Effort, purpose: Purpose) -> Vec<[f64; 3]> {
-            self.numbers(effort, purpose)
+        fn of(&self, effort: &Effort, places: &[Place]) -> Vec<[f64; 3]> {
+            self.numbers(effort, places)
+        }
+
+        fn outstanding(&self, _: &Effort) -> Vec<Place> {
+            vec![Place::Glint]
         }
     }
 
-    fn asked([sky, edges]: [f64; 2], fall: f64, checked: f64) -> Verdict {
+    fn asked([sky, edges]: [f64; 2], fall: f64, [checked, glint]: [f64; 2]) -> Verdict {
         let scene = crate::command::load(None).unwrap();
         let view = View::default();
         let base = Base::new(&scene, &view, Plan::new(&scene, &view).unwrap());
-        let mut subject = Falling { base, sky, edges, fall, checked, made: Vec::new() };
+        let mut subject = Falling { base, sky, edges, fall, checked, glint, made: Vec::new() };
         let (_, verdict) = honoured(&mut subject, Wanted(0.02)).unwrap();
         // The whole is made once, whatever it took to choose.
         assert_eq!(subject.made, [verdict.effort]);
@@ -238,7 +295,7 @@ mod tests {
     #[test]
     fn effort_goes_where_the_error_is() {
         for (first, fall) in [(0.2, 1.5), (0.3, 2.5), (0.05, 1.3), (0.019, 1.5), (0.3, 8.0)] {
-            let verdict = asked([first, 0.0], fall, 1.0);
+            let verdict = asked([first, 0.0], fall, [1.0; 2]);
             // What judges has an error too: of the same sign here, so that differences are smaller.
             let found = |level: u8| {
                 let at = |level: u8| first / f64::powi(fall, i32::from(level));
@@ -252,22 +309,29 @@ mod tests {
             let spare = if fall > 1.5 { 5 } else { 1 };
             assert!(sky >= least && sky <= least + spare && edges == 0, "{first} {fall}: {verdict} {least}");
         }
-        let both = asked([0.06, 0.06], 1.5, 1.0);
+        let both = asked([0.06, 0.06], 1.5, [1.0; 2]);
         assert!(both.reached.relative_rmse <= 0.02);
         assert!(both.effort.level(Group::Sky).0 > 0 && both.effort.level(Group::Edges).0 > 0);
     }
 
     #[test]
     fn a_check_that_says_more_is_believed() {
-        let [alone, checked] = [1.0, 2.0].map(|checked| asked([0.03, 0.0], 1.5, checked));
+        let [alone, checked] = [1.0, 2.0].map(|checked| asked([0.03, 0.0], 1.5, [checked, 1.0]));
         assert!(checked.reached.relative_rmse <= 0.02, "{checked}");
         assert!(checked.effort.level(Group::Sky) > alone.effort.level(Group::Sky));
     }
 
     #[test]
     fn what_cannot_be_reached_is_said() {
-        let verdict = asked([3.0, 0.0], 1.2, 1.0);
+        let verdict = asked([3.0, 0.0], 1.2, [1.0; 2]);
         assert_eq!(verdict.effort.level(Group::Sky), Level(6));
         assert!(verdict.to_string().contains("not reached"));
+    }
+
+    #[test]
+    fn what_stands_out_counts_though_no_sample_has_met_it() {
+        let verdict = asked([0.03, 0.0], 1.5, [1.0, 500.0]);
+        assert!(verdict.reached.relative_rmse > 0.02 && verdict.standing_out > 0.9, "{verdict}");
+        assert!(verdict.to_string().contains("stand out"));
     }
 }

@@ -17,6 +17,9 @@ use crate::studio::{FrameSpec, Shot, Studio};
 /// Pixels to choose by, and as many to check by.
 const PIXELS: usize = 144;
 
+/// Pixels that are judged because they stand out.
+const OUTSTANDING: usize = 24;
+
 /// A picture with no more than `wanted` error against much more effort, and what that took.
 ///
 /// # Errors
@@ -65,6 +68,7 @@ impl Pictured<'_> {
 
 impl Subject for Pictured<'_> {
     type Whole = Shot;
+    type Place = [u32; 2];
     const WHAT: &'static str = "pixels";
     const TOP: Level = Level(6);
 
@@ -72,9 +76,17 @@ impl Subject for Pictured<'_> {
         &self.base
     }
 
-    fn some(&mut self, effort: &Effort, purpose: Purpose) -> Result<Vec<[f64; 3]>, Error> {
-        let (at, monitor) = (pixels(&self.region, PIXELS, purpose), self.monitor);
-        let found = self.studio(effort).pixels(&at, monitor)?;
+    fn count(&self) -> usize {
+        self.region.columns.len() * self.region.rows.len()
+    }
+
+    fn sample(&self, purpose: Purpose) -> Vec<[u32; 2]> {
+        pixels(&self.region, PIXELS, purpose)
+    }
+
+    fn some(&mut self, effort: &Effort, places: &[[u32; 2]]) -> Result<Vec<[f64; 3]>, Error> {
+        let monitor = self.monitor;
+        let found = self.studio(effort).pixels(places, monitor)?;
         Ok(found.iter().map(|rgb| rgb.to_array().map(f64::from)).collect())
     }
 
@@ -83,13 +95,37 @@ impl Subject for Pictured<'_> {
         self.studio(effort).frame(&FrameSpec::default(), monitor, &mut Timings::default())
     }
 
-    fn of(&self, whole: &Shot, purpose: Purpose) -> Vec<[f64; 3]> {
+    fn of(&self, whole: &Shot, places: &[[u32; 2]]) -> Vec<[f64; 3]> {
         let developed = output::develop(&whole.film);
         let width = self.region.columns.len();
-        let at = |[x, y]: [u32; 2]| {
+        let at = |&[x, y]: &[u32; 2]| {
             let i = (y - self.region.rows.start) as usize * width + (x - self.region.columns.start) as usize;
             developed[0].rgb[i].to_array().map(f64::from)
         };
-        pixels(&self.region, PIXELS, purpose).into_iter().map(at).collect()
+        places.iter().map(at).collect()
     }
+
+    /// By luminance against the median of what is around: edges stand out less than single bright pixels.
+    fn outstanding(&self, whole: &Shot) -> Vec<[u32; 2]> {
+        let (width, height) = (self.region.columns.len(), self.region.rows.len());
+        let luminance: Vec<f32> = whole.film.layers[0].pixels.iter().map(|pixel| pixel.luminance()).collect();
+        let mut order: Vec<(f32, usize)> =
+            (0..width * height).map(|i| (prominence(&luminance, (width, height), i), i)).collect();
+        order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let pixel = |i: usize| {
+            [self.region.columns.start + (i % width) as u32, self.region.rows.start + (i / width) as u32]
+        };
+        order.into_iter().take(OUTSTANDING).map(|(_, i)| pixel(i)).collect()
+    }
+}
+
+/// How far a pixel is from the median of the three by three around it.
+fn prominence(luminance: &[f32], (width, height): (usize, usize), i: usize) -> f32 {
+    let (x, y) = (i % width, i / width);
+    let rows = y.saturating_sub(1)..(y + 2).min(height);
+    let mut around: Vec<f32> = rows
+        .flat_map(|y| (x.saturating_sub(1)..(x + 2).min(width)).map(move |x| luminance[y * width + x]))
+        .collect();
+    around.sort_unstable_by(f32::total_cmp);
+    (luminance[i] - around[around.len() / 2]).abs()
 }

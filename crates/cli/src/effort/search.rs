@@ -1,5 +1,6 @@
 //! The least effort that is good enough, sought on a few numbers of the result.
 
+use super::error::Stratum;
 use super::group::{Effort, Group};
 use super::sample::Purpose;
 use super::{Off, Subject};
@@ -36,7 +37,8 @@ impl<'a, S: Subject> Search<'a, S> {
             if let Some((.., numbers)) = known {
                 all.extend_from_slice(numbers);
             } else {
-                let numbers = self.subject.some(effort, *sample)?;
+                let places = self.subject.sample(*sample);
+                let numbers = self.subject.some(effort, &places)?;
                 all.extend_from_slice(&numbers);
                 self.kept.push((*effort, *sample, numbers));
             }
@@ -50,15 +52,31 @@ impl<'a, S: Subject> Search<'a, S> {
         Ok(Off::new(&self.some(effort, samples)?, &truths))
     }
 
-    /// The same of the whole that was made with this effort.
+    /// The same of the whole that was made with this effort, and the share of the squared error that few places have which stand out.
+    ///
+    /// These are asked all, because a sample may have met none of them.
     pub(super) fn off_whole(
         &mut self,
         (whole, effort): (&S::Whole, &Effort),
         samples: &[Purpose],
-    ) -> Result<Off, Error> {
-        let truths = self.some(&effort.judge(), samples)?;
-        let answers: Vec<_> = samples.iter().flat_map(|sample| self.subject.of(whole, *sample)).collect();
-        Ok(Off::new(&answers, &truths))
+    ) -> Result<(Off, f64), Error> {
+        let judge = effort.judge();
+        let outstanding = self.subject.outstanding(whole);
+        let [answers, truths] =
+            [self.subject.of(whole, &outstanding), self.subject.some(&judge, &outstanding)?];
+        let share = outstanding.len() as f64 / self.subject.count().max(1) as f64;
+        let few = Stratum { share, all: true, answers: &answers, truths: &truths };
+        let places: Vec<_> = samples.iter().flat_map(|sample| self.subject.sample(*sample)).collect();
+        let (answers, truths) = (self.subject.of(whole, &places), self.some(&judge, samples)?);
+        let others = places.iter().map(|place| !outstanding.contains(place));
+        let [answers, truths] = [answers, truths].map(|numbers| -> Vec<_> {
+            numbers.into_iter().zip(others.clone()).filter_map(|(n, other)| other.then_some(n)).collect()
+        });
+        let rest = Stratum { share: 1.0 - share, all: false, answers: &answers, truths: &truths };
+        let off = Off::stratified(&[rest, few]);
+        let without = Off::stratified(&[Stratum { answers: few.truths, ..few }, rest]);
+        let of_few = 1.0 - (without.relative_rmse / off.relative_rmse.max(f64::MIN_POSITIVE)).powi(2);
+        Ok((off, of_few))
     }
 
     /// The least effort from `first` on that is good enough by what is chosen by; where none is the highest that helps, and `Err` of it.
