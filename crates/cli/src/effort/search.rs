@@ -12,21 +12,56 @@ pub(super) struct Search<'a, S> {
     kept: Vec<(Effort, Purpose, Vec<[f64; 3]>)>,
     /// By which samples is chosen: that of the pilot, and those whose check failed.
     chosen_by: Vec<Purpose>,
+    /// The next check.
+    check: u32,
 }
+
+/// Places of a whole that stand out, all of which are asked, because a sample may have met none of them.
+struct Outstanding<P> {
+    places: Vec<P>,
+    truths: Vec<[f64; 3]>,
+    /// Of all places.
+    share: f64,
+}
+
+/// Checks in turn, each after one that failed.
+const CHECKS: u32 = 3;
 
 impl<'a, S: Subject> Search<'a, S> {
     pub(super) fn new(subject: &'a mut S) -> Self {
-        Self { subject, kept: Vec::new(), chosen_by: vec![Purpose::Pilot] }
+        Self { subject, kept: Vec::new(), chosen_by: vec![Purpose::Pilot], check: 0 }
     }
 
-    /// By which samples is chosen.
-    pub(super) fn samples(&self) -> &[Purpose] {
-        &self.chosen_by
+    /// Raises the effort until a sample passes that nothing was chosen by; false where nothing more can be raised. One that fails joins
+    /// those that are chosen by.
+    pub(super) fn passed(&mut self, effort: &mut Effort, wanted: f64) -> Result<bool, Error> {
+        for _ in 0..CHECKS {
+            let helps = self.least(effort, wanted)?;
+            self.check += 1;
+            let last = [Purpose::Check(self.check)];
+            if !helps || self.off(effort, &last)?.most() <= wanted {
+                return Ok(helps);
+            }
+            self.chosen_by.extend(last);
+        }
+        Ok(true)
     }
 
-    /// From now on is chosen by this sample too.
-    pub(super) fn learn_from(&mut self, sample: Purpose) {
-        self.chosen_by.push(sample);
+    /// What is known of the whole that was made with this effort, and the share of the squared error that few places have which stand
+    /// out: by the last check, or by all samples if that says more. That check joins those that are chosen by.
+    pub(super) fn verdict(&mut self, whole: &S::Whole, effort: &Effort) -> Result<(Off, f64), Error> {
+        let last = Purpose::Check(self.check);
+        if !self.chosen_by.contains(&last) {
+            self.chosen_by.push(last);
+        }
+        let places = self.subject.outstanding(whole);
+        let truths = self.subject.some(&effort.judge(), &places)?;
+        let outstanding =
+            Outstanding { share: places.len() as f64 / self.subject.count().max(1) as f64, places, truths };
+        let samples = self.chosen_by.clone();
+        let last = self.off_whole((whole, effort), &outstanding, &[last])?;
+        let all = self.off_whole((whole, effort), &outstanding, &samples)?;
+        Ok(if all.0.most() > last.0.most() { all } else { last })
     }
 
     /// The numbers of samples with this effort.
@@ -47,66 +82,67 @@ impl<'a, S: Subject> Search<'a, S> {
     }
 
     /// How far samples with this effort are off, by what judges it.
-    pub(super) fn off(&mut self, effort: &Effort, samples: &[Purpose]) -> Result<Off, Error> {
+    fn off(&mut self, effort: &Effort, samples: &[Purpose]) -> Result<Off, Error> {
         let truths = self.some(&effort.judge(), samples)?;
         Ok(Off::new(&self.some(effort, samples)?, &truths))
     }
 
     /// The same of the whole that was made with this effort, and the share of the squared error that few places have which stand out.
-    ///
-    /// These are asked all, because a sample may have met none of them.
-    pub(super) fn off_whole(
+    fn off_whole(
         &mut self,
         (whole, effort): (&S::Whole, &Effort),
+        outstanding: &Outstanding<S::Place>,
         samples: &[Purpose],
     ) -> Result<(Off, f64), Error> {
-        let judge = effort.judge();
-        let outstanding = self.subject.outstanding(whole);
-        let [answers, truths] =
-            [self.subject.of(whole, &outstanding), self.subject.some(&judge, &outstanding)?];
-        let share = outstanding.len() as f64 / self.subject.count().max(1) as f64;
-        let few = Stratum { share, all: true, answers: &answers, truths: &truths };
-        let places: Vec<_> = samples.iter().flat_map(|sample| self.subject.sample(*sample)).collect();
-        let (answers, truths) = (self.subject.of(whole, &places), self.some(&judge, samples)?);
-        let others = places.iter().map(|place| !outstanding.contains(place));
-        let [answers, truths] = [answers, truths].map(|numbers| -> Vec<_> {
+        let Outstanding { places, truths, share } = outstanding;
+        let answers = self.subject.of(whole, places);
+        let few = Stratum { share: *share, all: true, answers: &answers, truths };
+        let sampled: Vec<_> = samples.iter().flat_map(|sample| self.subject.sample(*sample)).collect();
+        let numbers = [self.subject.of(whole, &sampled), self.some(&effort.judge(), samples)?];
+        let others = sampled.iter().map(|place| !places.contains(place));
+        let [answers, truths] = numbers.map(|numbers| -> Vec<_> {
             numbers.into_iter().zip(others.clone()).filter_map(|(n, other)| other.then_some(n)).collect()
         });
         let rest = Stratum { share: 1.0 - share, all: false, answers: &answers, truths: &truths };
         let off = Off::stratified(&[rest, few]);
-        let without = Off::stratified(&[Stratum { answers: few.truths, ..few }, rest]);
+        let without = Off::stratified(&[rest, Stratum { answers: few.truths, ..few }]);
         let of_few = 1.0 - (without.relative_rmse / off.relative_rmse.max(f64::MIN_POSITIVE)).powi(2);
         Ok((off, of_few))
     }
 
-    /// The least effort from `first` on that is good enough by what is chosen by; where none is the highest that helps, and `Err` of it.
+    /// How far what is chosen by is off with this effort, at most.
+    pub(super) fn found(&mut self, effort: &Effort) -> Result<f64, Error> {
+        let samples = self.chosen_by.clone();
+        Ok(self.off(effort, &samples)?.most())
+    }
+
+    /// Raises the effort until it is good enough by what is chosen by; false where nothing more can be raised that helps.
     ///
     /// Each round asks what judges, and where that says no, each group of knobs by itself: by how much answers change when it alone
     /// has the judge's effort is its part of the error.
-    pub(super) fn least(&mut self, first: Effort, wanted: f64) -> Result<Result<Effort, Effort>, Error> {
-        let samples = self.chosen_by.clone();
-        let mut effort = first;
+    fn least(&mut self, effort: &mut Effort, wanted: f64) -> Result<bool, Error> {
         loop {
-            let found = self.off(&effort, &samples)?.most();
+            let found = self.found(effort)?;
             if found <= wanted {
-                return Ok(Ok(effort));
+                return Ok(true);
             }
-            let parts = self.parts(&effort, &samples)?;
+            let parts = self.parts(effort)?;
             match effort.raised(&parts, S::TOP, [found, wanted]) {
-                Some(higher) => effort = higher,
-                None => return Ok(Err(effort)),
+                Some(higher) => *effort = higher,
+                None => return Ok(false),
             }
         }
     }
 
     /// What part of the squared error each group has that decides anything here.
-    fn parts(&mut self, effort: &Effort, samples: &[Purpose]) -> Result<Vec<(Group, f64)>, Error> {
-        let (answers, judge) = (self.some(effort, samples)?, effort.judge());
+    fn parts(&mut self, effort: &Effort) -> Result<Vec<(Group, f64)>, Error> {
+        let samples = self.chosen_by.clone();
+        let (answers, judge) = (self.some(effort, &samples)?, effort.judge());
         let mut parts = Vec::new();
         for group in Group::ALL {
             let alone = effort.with(group, judge.level(group));
             if self.subject.base().set(&alone) != self.subject.base().set(effort) {
-                let changed = self.some(&alone, samples)?;
+                let changed = self.some(&alone, &samples)?;
                 parts.push((group, Off::new(&changed, &answers).relative_rmse.powi(2)));
             }
         }
