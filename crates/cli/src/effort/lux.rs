@@ -5,6 +5,7 @@ use scene::{Scene, Sensor};
 use super::group::Effort;
 use super::level::Level;
 use super::sample::{Purpose, numbers};
+use super::strata::Part;
 use super::{Base, Subject, Verdict, Wanted, honoured};
 use crate::Error;
 use crate::args::View;
@@ -69,10 +70,6 @@ impl Subject for Measured<'_> {
         &self.0
     }
 
-    fn count(&self) -> usize {
-        self.points()
-    }
-
     fn sample(&self, purpose: Purpose) -> Vec<usize> {
         numbers(self.points(), POINTS, purpose)
     }
@@ -91,7 +88,11 @@ impl Subject for Measured<'_> {
     }
 
     /// Of points is not known which are neighbours.
-    fn outstanding(&self, _: &(Table, Measuring)) -> Vec<usize> {
-        Vec::new()
+    fn parts(&self, _: &(Table, Measuring), purpose: Purpose) -> Vec<Part<usize>> {
+        let few = self.sample(purpose);
+        vec![
+            Part { share: 0.0, all: true, places: Vec::new() },
+            Part { share: 1.0, all: few.len() == self.points(), places: few },
+        ]
     }
 }

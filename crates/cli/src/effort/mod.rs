@@ -10,6 +10,7 @@ mod lux;
 mod picture;
 mod sample;
 mod search;
+mod strata;
 
 use std::fmt;
 use std::time::Instant;
@@ -24,6 +25,7 @@ pub(crate) use lux::table;
 pub(crate) use picture::shot;
 use sample::Purpose;
 use search::Search;
+use strata::Part;
 
 use crate::Error;
 use crate::args::View;
@@ -120,9 +122,6 @@ trait Subject {
     /// What it is made from.
     fn base(&self) -> &Base<'_>;
 
-    /// How many places it has.
-    fn count(&self) -> usize;
-
     /// Places of a random sample.
     fn sample(&self, purpose: Purpose) -> Vec<Self::Place>;
 
@@ -135,8 +134,8 @@ trait Subject {
     /// The numbers of some places of the whole.
     fn of(&self, whole: &Self::Whole, places: &[Self::Place]) -> Vec<[f64; 3]>;
 
-    /// The few places of the whole that stand out most from what is around them.
-    fn outstanding(&self, whole: &Self::Whole) -> Vec<Self::Place>;
+    /// Its parts, with some places of each at random; first what stands out from what is around it, if that is known.
+    fn parts(&self, whole: &Self::Whole, purpose: Purpose) -> Vec<Part<Self::Place>>;
 }
 
 /// Finds the effort by a pilot of a few numbers, checks it by others, and makes the whole. What is said of that comes from numbers that
@@ -248,10 +247,6 @@ mod tests {
             &self.base
         }
 
-        fn count(&self) -> usize {
-            100
-        }
-
         fn sample(&self, purpose: Purpose) -> Vec<Place> {
             (0..4).map(|i| Place::Of(purpose, i)).collect()
         }
@@ -269,8 +264,9 @@ mod tests {
             self.numbers(effort, places)
         }
 
-        fn outstanding(&self, _: &Effort) -> Vec<Place> {
-            vec![Place::Glint]
+        fn parts(&self, _: &Effort, purpose: Purpose) -> Vec<Part<Place>> {
+            let glint = Part { share: 0.01, all: true, places: vec![Place::Glint] };
+            vec![glint, Part { share: 0.99, all: false, places: self.sample(purpose) }]
         }
     }
 

@@ -5,6 +5,7 @@ use scene::Scene;
 use super::group::{Anew, Effort};
 use super::level::Level;
 use super::sample::{Purpose, pixels};
+use super::strata::{Part, strata};
 use super::{Base, Subject, Verdict, Wanted, honoured};
 use crate::Error;
 use crate::args::View;
@@ -16,9 +17,6 @@ use crate::studio::{FrameSpec, Shot, Studio};
 
 /// Pixels to choose by, and as many to check by.
 const PIXELS: usize = 144;
-
-/// Pixels that are judged because they stand out.
-const OUTSTANDING: usize = 24;
 
 /// A picture with no more than `wanted` error against much more effort, and what that took.
 ///
@@ -76,10 +74,6 @@ impl Subject for Pictured<'_> {
         &self.base
     }
 
-    fn count(&self) -> usize {
-        self.region.columns.len() * self.region.rows.len()
-    }
-
     fn sample(&self, purpose: Purpose) -> Vec<[u32; 2]> {
         pixels(&self.region, PIXELS, purpose)
     }
@@ -105,27 +99,19 @@ impl Subject for Pictured<'_> {
         places.iter().map(at).collect()
     }
 
-    /// By luminance against the median of what is around: edges stand out less than single bright pixels.
-    fn outstanding(&self, whole: &Shot) -> Vec<[u32; 2]> {
-        let (width, height) = (self.region.columns.len(), self.region.rows.len());
+    fn parts(&self, whole: &Shot, purpose: Purpose) -> Vec<Part<[u32; 2]>> {
         let luminance: Vec<f32> = whole.film.layers[0].pixels.iter().map(|pixel| pixel.luminance()).collect();
-        let mut order: Vec<(f32, usize)> =
-            (0..width * height).map(|i| (prominence(&luminance, (width, height), i), i)).collect();
-        order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let pixel = |i: usize| {
+        let width = self.region.columns.len();
+        let pixel = |&i: &usize| {
             [self.region.columns.start + (i % width) as u32, self.region.rows.start + (i / width) as u32]
         };
-        order.into_iter().take(OUTSTANDING).map(|(_, i)| pixel(i)).collect()
+        let parts = strata(&luminance, width, purpose).into_iter();
+        parts
+            .map(|Part { share, all, places }| Part {
+                share,
+                all,
+                places: places.iter().map(pixel).collect(),
+            })
+            .collect()
     }
-}
-
-/// How far a pixel is from the median of the three by three around it.
-fn prominence(luminance: &[f32], (width, height): (usize, usize), i: usize) -> f32 {
-    let (x, y) = (i % width, i / width);
-    let rows = y.saturating_sub(1)..(y + 2).min(height);
-    let mut around: Vec<f32> = rows
-        .flat_map(|y| (x.saturating_sub(1)..(x + 2).min(width)).map(move |x| luminance[y * width + x]))
-        .collect();
-    around.sort_unstable_by(f32::total_cmp);
-    (luminance[i] - around[around.len() / 2]).abs()
 }

@@ -16,14 +16,6 @@ pub(super) struct Search<'a, S> {
     check: u32,
 }
 
-/// Places of a whole that stand out, all of which are asked, because a sample may have met none of them.
-struct Outstanding<P> {
-    places: Vec<P>,
-    truths: Vec<[f64; 3]>,
-    /// Of all places.
-    share: f64,
-}
-
 /// Checks in turn, each after one that failed.
 const CHECKS: u32 = 3;
 
@@ -48,20 +40,46 @@ impl<'a, S: Subject> Search<'a, S> {
     }
 
     /// What is known of the whole that was made with this effort, and the share of the squared error that few places have which stand
-    /// out: by the last check, or by all samples if that says more. That check joins those that are chosen by.
+    /// out: by parts, or by all samples so far if that says more. The last check joins those that are chosen by.
     pub(super) fn verdict(&mut self, whole: &S::Whole, effort: &Effort) -> Result<(Off, f64), Error> {
         let last = Purpose::Check(self.check);
         if !self.chosen_by.contains(&last) {
             self.chosen_by.push(last);
         }
-        let places = self.subject.outstanding(whole);
-        let truths = self.subject.some(&effort.judge(), &places)?;
-        let outstanding =
-            Outstanding { share: places.len() as f64 / self.subject.count().max(1) as f64, places, truths };
         let samples = self.chosen_by.clone();
-        let last = self.off_whole((whole, effort), &outstanding, &[last])?;
-        let all = self.off_whole((whole, effort), &outstanding, &samples)?;
-        Ok(if all.0.most() > last.0.most() { all } else { last })
+        let truths = self.some(&effort.judge(), &samples)?;
+        let all = Off::new(&self.of(whole, &samples), &truths);
+        let (parts, standing_out) = self.by_parts(whole, effort)?;
+        Ok((if all.most() > parts.most() { all } else { parts }, standing_out))
+    }
+
+    fn of(&self, whole: &S::Whole, samples: &[Purpose]) -> Vec<[f64; 3]> {
+        let places: Vec<_> = samples.iter().flat_map(|sample| self.subject.sample(*sample)).collect();
+        self.subject.of(whole, &places)
+    }
+
+    /// How far the whole is off by places of each of its parts, and the share of the first in the squared error.
+    fn by_parts(&mut self, whole: &S::Whole, effort: &Effort) -> Result<(Off, f64), Error> {
+        let parts = self.subject.parts(whole, Purpose::Check(self.check));
+        let places: Vec<_> = parts.iter().flat_map(|part| part.places.iter().copied()).collect();
+        let [answers, truths] =
+            [self.subject.of(whole, &places), self.subject.some(&effort.judge(), &places)?];
+        let mut begin = 0;
+        let mut strata: Vec<Stratum> = parts
+            .iter()
+            .map(|part| {
+                let own = begin..begin + part.places.len();
+                begin = own.end;
+                let (share, all) = (part.share, part.all);
+                Stratum { share, all, answers: &answers[own.clone()], truths: &truths[own] }
+            })
+            .collect();
+        let off = Off::stratified(&strata);
+        if let Some(first) = strata.first_mut() {
+            first.answers = first.truths;
+        }
+        let others = Off::stratified(&strata).relative_rmse;
+        Ok((off, 1.0 - (others / off.relative_rmse.max(f64::MIN_POSITIVE)).powi(2)))
     }
 
     /// The numbers of samples with this effort.
@@ -85,29 +103,6 @@ impl<'a, S: Subject> Search<'a, S> {
     fn off(&mut self, effort: &Effort, samples: &[Purpose]) -> Result<Off, Error> {
         let truths = self.some(&effort.judge(), samples)?;
         Ok(Off::new(&self.some(effort, samples)?, &truths))
-    }
-
-    /// The same of the whole that was made with this effort, and the share of the squared error that few places have which stand out.
-    fn off_whole(
-        &mut self,
-        (whole, effort): (&S::Whole, &Effort),
-        outstanding: &Outstanding<S::Place>,
-        samples: &[Purpose],
-    ) -> Result<(Off, f64), Error> {
-        let Outstanding { places, truths, share } = outstanding;
-        let answers = self.subject.of(whole, places);
-        let few = Stratum { share: *share, all: true, answers: &answers, truths };
-        let sampled: Vec<_> = samples.iter().flat_map(|sample| self.subject.sample(*sample)).collect();
-        let numbers = [self.subject.of(whole, &sampled), self.some(&effort.judge(), samples)?];
-        let others = sampled.iter().map(|place| !places.contains(place));
-        let [answers, truths] = numbers.map(|numbers| -> Vec<_> {
-            numbers.into_iter().zip(others.clone()).filter_map(|(n, other)| other.then_some(n)).collect()
-        });
-        let rest = Stratum { share: 1.0 - share, all: false, answers: &answers, truths: &truths };
-        let off = Off::stratified(&[rest, few]);
-        let without = Off::stratified(&[rest, Stratum { answers: few.truths, ..few }]);
-        let of_few = 1.0 - (without.relative_rmse / off.relative_rmse.max(f64::MIN_POSITIVE)).powi(2);
-        Ok((off, of_few))
     }
 
     /// How far what is chosen by is off with this effort, at most.
