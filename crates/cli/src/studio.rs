@@ -174,7 +174,7 @@ impl Studio {
 }
 
 /// Whether all layers can be held in memory.
-fn fits(plan: &Plan, scene: &Scene, layers: bool) -> Result<(), Error> {
+pub(crate) fn fits(plan: &Plan, scene: &Scene, layers: bool) -> Result<(), Error> {
     let layers = if layers { (scene.lights.len() + scene.area_lights.len()) as u64 + 4 } else { 1 };
     let pixels = plan.region.columns.len() as u64 * plan.region.rows.len() as u64;
     if pixels.saturating_mul(layers) > MOST_PIXELS {

@@ -140,7 +140,7 @@ const ASKED: [(&str, &str, &str, &str); 15] = [
     ("render", "courtyard.toml", "96", "1%"),
     ("render", "pool.toml", "96", "5%"),
     ("render", "pool-waves.toml", "96", "5%"),
-    ("render", "thesis/fig-2-8a.toml", "40", "2%"),
+    ("render", "thesis/fig-2-8a.toml", "32", "2%"),
     ("render", "thesis/fig-2-8d-3.toml", "96", "3%"),
     ("render", "thesis/fig-3-11a.toml", "96", "5%"),
     ("render", "thesis/fig-4-11.toml", "96", "2%"),
@@ -159,7 +159,7 @@ const ASKED: [(&str, &str, &str, &str); 15] = [
 fn errors_are_asked_of_scenes_of_all_kinds() {
     let folder = folder("asked");
     println!("scene | asked | found | of the whole | seconds for it, besides, by reference");
-    let mut broken = Vec::new();
+    let (mut broken, mut honoured) = (Vec::new(), 0);
     for (command, scene, width, asked) in ASKED {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
         let path = path.to_str().unwrap();
@@ -198,11 +198,16 @@ fn errors_are_asked_of_scenes_of_all_kinds() {
             error["effort"],
         );
         // What is said to be honoured is: 144 pixels are off by a third at most.
-        if found + unsure <= number(&error["asked"]) && whole > 1.33 * number(&error["asked"]) {
-            broken.push(scene);
+        if found + unsure <= number(&error["asked"]) {
+            honoured += 1;
+            if whole > 1.33 * number(&error["asked"]) {
+                broken.push(scene);
+            }
         }
     }
     assert!(broken.is_empty(), "{broken:?}");
+    // All but the glints of figure 2.8 (d), and one that may be unlucky.
+    assert!(honoured >= ASKED.len() - 2, "{honoured}");
 }
 
 /// Of the totals of two tables of lux.

@@ -12,6 +12,9 @@ pub(crate) struct Off {
     pub(crate) uncertainty: f64,
     /// How many pixels or points it comes from.
     pub(crate) count: usize,
+    /// Whether there are more of them.
+    #[serde(skip)]
+    pub(super) sampled: bool,
 }
 
 /// Answers of a part of a whole, and what they should be.
@@ -25,6 +28,18 @@ pub(super) struct Stratum<'a> {
     pub(super) truths: &'a [[f64; 3]],
 }
 
+/// |a − b|² of each, the mean of its three.
+fn squares(answers: &[[f64; 3]], truths: &[[f64; 3]]) -> impl Iterator<Item = f64> {
+    let square =
+        |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / 3.0;
+    answers.iter().zip(truths).map(square)
+}
+
+/// Of all.
+pub(super) fn mean_square(answers: &[[f64; 3]], truths: &[[f64; 3]]) -> f64 {
+    squares(answers, truths).sum::<f64>() / answers.len().max(1) as f64
+}
+
 impl Stratum<'_> {
     fn count(&self) -> usize {
         self.answers.len().min(self.truths.len())
@@ -33,10 +48,7 @@ impl Stratum<'_> {
     /// Means of |a − b|² and b, and the squared standard error of the former.
     fn means(&self) -> [f64; 3] {
         let n = self.count().max(1) as f64;
-        let square = |(a, b): (&[f64; 3], &[f64; 3])| {
-            a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64
-        };
-        let squares: Vec<f64> = self.answers.iter().zip(self.truths).map(square).collect();
+        let squares: Vec<f64> = squares(self.answers, self.truths).collect();
         let mean_square = squares.iter().sum::<f64>() / n;
         let spread = squares.iter().map(|q| (q - mean_square).powi(2)).sum::<f64>() / n;
         let mean = self.truths.iter().flatten().sum::<f64>() / (3.0 * n);
@@ -65,7 +77,8 @@ impl Off {
         let rmse = square.sqrt();
         let over = |value: f64| if value == 0.0 { 0.0 } else { value / mean };
         let of_rmse = if rmse > 0.0 { variance.sqrt() / (2.0 * rmse) } else { 0.0 };
-        Self { relative_rmse: over(rmse), uncertainty: over(of_rmse), count: count as usize }
+        let sampled = strata.iter().any(|stratum| !stratum.all);
+        Self { relative_rmse: over(rmse), uncertainty: over(of_rmse), count: count as usize, sampled }
     }
 
     /// What it is at most, but for one chance in six.

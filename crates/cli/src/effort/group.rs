@@ -20,14 +20,14 @@ pub(super) enum Group {
     Lamps,
     /// How much of the sky is seen.
     Sky,
+    /// Sky among leaves.
+    Trees,
     /// Patches and links.
     Interreflection,
     /// Light scattered by water and arriving through it.
     Water,
     /// Light that waves gather.
     Caustics,
-    /// Sky among leaves.
-    Trees,
 }
 
 impl Group {
@@ -39,10 +39,10 @@ impl Group {
         Self::Sun,
         Self::Lamps,
         Self::Sky,
+        Self::Trees,
         Self::Interreflection,
         Self::Water,
         Self::Caustics,
-        Self::Trees,
     ];
 
     fn name(self) -> &'static str {
@@ -61,17 +61,17 @@ impl Group {
     }
 
     /// What must be assembled anew when it changes.
-    fn anew(self) -> Anew {
+    pub(super) fn anew(self) -> Anew {
         match self {
             Self::Edges | Self::Shading | Self::Depth => Anew::Eye,
-            Self::Sun | Self::Lamps | Self::Sky | Self::Interreflection => Anew::Lights,
-            Self::Water | Self::Caustics | Self::Trees => Anew::Things,
+            Self::Sun | Self::Lamps | Self::Sky | Self::Trees | Self::Interreflection => Anew::Lights,
+            Self::Water | Self::Caustics => Anew::Things,
         }
     }
 
     /// Of a knob; none for what changes no answer (`bvh-quality`), is another model rather than more of the same (`trees.planes`), or is
     /// the same in all presets.
-    fn of(knob: &Knob) -> Option<Self> {
+    pub(super) fn of(knob: &Knob) -> Option<Self> {
         let [draft, normal, reference] = knob.presets;
         if draft == normal && normal == reference {
             return None;
@@ -91,8 +91,18 @@ impl Group {
         }
     }
 
+    /// Whether a knob by its name is one of who finds what the eye sees, of which sensors know nothing.
+    pub(super) fn of_eye(name: &str) -> bool {
+        KNOBS
+            .iter()
+            .filter(|knob| knob.name == name)
+            .filter_map(Self::of)
+            .any(|group| group.anew() == Anew::Eye)
+    }
+
     /// The next level that may change anything: where a stage has a name, that of another name.
     fn next(self, level: Level, top: Level) -> Option<Level> {
+        let top = if self == Self::Interreflection { top.min(MOST_PATCHES) } else { top };
         let own = |knob: &&Knob| Self::of(knob) == Some(self);
         let mut above = (level.0 + 1..=top.0).map(Level);
         let named = |knob: &Knob| matches!(knob.domain, Domain::Choice(_));
@@ -104,6 +114,9 @@ impl Group {
         if only_named { by_name } else { by_name.or_else(|| above.next()) }
     }
 }
+
+/// Patches are raised no further: what judges has three levels more, and finer ones than those take gigabytes to link.
+const MOST_PATCHES: Level = Level(3);
 
 /// What must be assembled anew for another effort; each with those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -120,8 +133,8 @@ pub(super) enum Anew {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Effort([Level; Group::ALL.len()]);
 
-/// By how much errors fall from one level to the next, at least: those of edges by 1.5 (`sub-scanlines`: 0.063, 0.020 for 4, 8), the
-/// sky's by 1.6 (`sky.rays`: 2.7, 0.9 % for 64, 256), those of lamps with an extent by 1.9 (`lamp.samples`: 3.1, 0.3 % for 16, 256).
+/// By how much errors fall from one level to the next, about: those of edges by 1.47 (`sub-scanlines`: 0.063, 0.020 for 4, 8), the sky's by
+/// 1.73 (`sky.rays`: 2.7, 0.9 % for 64, 256), those of lamps with an extent by 2.2 (`lamp.samples`: 3.1, 0.3 % for 16, 256).
 const FALL: f64 = 1.5;
 
 impl Effort {
@@ -139,27 +152,26 @@ impl Effort {
         self
     }
 
-    /// Values of all knobs that it decides, but those that the user has (`taken`).
-    pub(super) fn settings(&self, taken: impl Fn(&str) -> bool) -> Vec<(String, String)> {
-        let set = |knob: &Knob| {
+    /// Values of all knobs that it decides, but those that are `taken`; in the order of all.
+    pub(super) fn settings(&self, taken: impl Fn(&str) -> bool) -> Vec<(&'static Knob, String)> {
+        let set = |knob: &'static Knob| {
             let level = self.level(Group::of(knob)?);
-            (!taken(knob.name)).then(|| (knob.name.to_owned(), level.value(knob)))
+            (!taken(knob.name)).then(|| (knob, level.value(knob)))
         };
         KNOBS.iter().filter_map(set).collect()
     }
 
-    /// What must be assembled anew after another effort; none if they are the same.
-    pub(super) fn anew(&self, before: &Self) -> Option<Anew> {
-        let changed = Group::ALL.into_iter().filter(|group| self.level(*group) != before.level(*group));
-        changed.map(Group::anew).max()
-    }
-
-    /// What judges it: three levels more of everything, so that errors are a third and less; shading by spans; and rays through glass
-    /// as far as the preset `reference` follows them, but no further, because they branch.
+    /// What judges it: three levels more of everything; shading by spans; rays through glass as far as the preset `reference` follows
+    /// them, but no further, because they branch. What is cheap to ask, and slow to fall from draft to normal, at least as `reference`
+    /// has it.
     pub(super) fn judge(&self) -> Self {
-        let above = |group: Group| match group {
-            Group::Shading | Group::Depth => Level(6),
-            _ => Level(self.level(group).0 + 3),
+        let above = |group: Group| {
+            let level = Level(self.level(group).0 + 3);
+            match group {
+                Group::Shading | Group::Depth => Level(6),
+                Group::Edges | Group::Water | Group::Trees => level.max(Level(6)),
+                _ => level,
+            }
         };
         Self(Group::ALL.map(above))
     }
@@ -221,8 +233,9 @@ mod tests {
     fn knobs_of_an_effort_are_those_of_their_groups() {
         let effort = Effort::LEAST.with(Group::Sky, Level(6));
         let settings = effort.settings(|name| name == "sky.patches");
-        let value =
-            |wanted: &str| settings.iter().find(|(name, _)| name == wanted).map(|(_, value)| value.as_str());
+        let value = |wanted: &str| {
+            settings.iter().find(|(knob, _)| knob.name == wanted).map(|(_, value)| value.as_str())
+        };
         assert_eq!(value("sky.rays"), Some("512"));
         assert_eq!(value("sun.samples"), Some("1"));
         assert_eq!(value("sky.patches"), None);
@@ -256,19 +269,23 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_the_same_is_not_assembled_again() {
-        let sky = Effort::LEAST.with(Group::Sky, Level(3));
-        assert_eq!(Effort::LEAST.anew(&Effort::LEAST), None);
-        assert_eq!(sky.anew(&Effort::LEAST), Some(Anew::Lights));
-        assert_eq!(sky.with(Group::Edges, Level(1)).anew(&sky), Some(Anew::Eye));
-        assert_eq!(sky.with(Group::Trees, Level(1)).anew(&Effort::LEAST), Some(Anew::Things));
-    }
-
-    #[test]
     fn the_judge_has_more_of_everything() {
-        let effort = Effort::LEAST.with(Group::Edges, Level(5));
-        let judge = effort.judge();
-        assert!(Group::ALL.iter().all(|group| judge.level(*group).0 >= effort.level(*group).0 + 3));
-        assert_eq!((judge.level(Group::Edges), judge.level(Group::Shading)), (Level(8), Level(6)));
+        for level in 0..=6 {
+            let effort =
+                Effort(Group::ALL.map(|group| group.next(Level(level), Level(6)).unwrap_or(Level(0))));
+            let judge = effort.judge();
+            for group in Group::ALL {
+                let values = |effort: &Effort| -> Vec<String> {
+                    let own =
+                        |(knob, value): (&Knob, String)| (Group::of(knob) == Some(group)).then_some(value);
+                    effort.settings(|_| false).into_iter().filter_map(own).collect()
+                };
+                // At most as deep and by the same spans.
+                let same = matches!(group, Group::Shading | Group::Depth) && effort.level(group) >= Level(5);
+                assert!(same || values(&judge) != values(&effort), "{group:?} at {level}");
+            }
+        }
+        let judge = Effort::LEAST.with(Group::Sky, Level(5)).judge();
+        assert_eq!((judge.level(Group::Edges), judge.level(Group::Sky)), (Level(6), Level(8)));
     }
 }

@@ -9,23 +9,19 @@ pub(super) struct Level(pub(super) u8);
 /// Levels from one preset to the next.
 const STEP: u8 = 3;
 
-/// Patches grow no finer than at this level: their links grow faster than errors fall.
-const FINEST_PATCHES: Level = Level(5);
-
 impl Level {
     /// What a knob is set to.
     pub(super) fn value(self, knob: &Knob) -> String {
-        let level = if knob.name.starts_with("interreflection.") { self.min(FINEST_PATCHES) } else { self };
         let presets = knob.presets.map(|preset| preset.parse::<f64>().ok().filter(|value| *value > 0.0));
         match (&knob.domain, presets) {
             (Domain::Integer(low, high), [Some(a), Some(b), Some(c)]) => {
-                level.between([a, b, c]).round().clamp(f64::from(*low), f64::from(*high)).to_string()
+                self.between([a, b, c]).round().clamp(f64::from(*low), f64::from(*high)).to_string()
             }
             (Domain::Number(low, high) | Domain::OwnOr(low, high), [Some(a), Some(b), Some(c)]) => {
-                level.between([a, b, c]).clamp(*low, *high).to_string()
+                self.between([a, b, c]).clamp(*low, *high).to_string()
             }
             // Names, and numbers of which 0 is one, have nothing in between.
-            _ => knob.presets[usize::from((level.0 + 1) / STEP).min(2)].to_owned(),
+            _ => knob.presets[usize::from((self.0 + 1) / STEP).min(2)].to_owned(),
         }
     }
 
@@ -49,8 +45,7 @@ mod tests {
     fn every_third_level_is_a_preset() {
         for (level, preset) in [(0, Preset::Draft), (3, Preset::Normal), (6, Preset::Reference)] {
             let wanted = Settings::preset(preset);
-            // Patches are bounded.
-            for knob in KNOBS.iter().filter(|knob| !knob.name.starts_with("interreflection.")) {
+            for knob in KNOBS {
                 let value = Level(level).value(knob);
                 let [a, b] = [value.as_str(), wanted.choice(knob.name)].map(|text| text.parse::<f64>());
                 match (a, b) {

@@ -25,7 +25,7 @@ pub(crate) fn table(
     view: &View,
     wanted: Wanted,
 ) -> Result<(Table, Measuring, Verdict), Error> {
-    let mut subject = Measured(Base::new(scene, view, Plan::new(scene, view)?));
+    let mut subject = Measured(Base::new(scene, view, Plan::new(scene, view)?, true));
     let ((table, measuring), verdict) = honoured(&mut subject, wanted)?;
     Ok((table, measuring, verdict))
 }

@@ -19,7 +19,7 @@ use scene::Scene;
 
 pub(crate) use error::Off;
 pub use error::Wanted;
-use group::Effort;
+use group::{Anew, Effort, Group};
 use level::Level;
 pub(crate) use lux::table;
 pub(crate) use picture::shot;
@@ -29,7 +29,7 @@ use strata::Part;
 
 use crate::Error;
 use crate::args::View;
-use crate::knobs::Settings;
+use crate::knobs::{Knob, Settings};
 use crate::plan::Plan;
 
 /// How often the whole is made again where it is narrowly not good enough.
@@ -43,7 +43,8 @@ const NARROWLY: f64 = 2.0;
 pub(crate) struct Verdict {
     /// The error asked for, as a share.
     pub(crate) asked: f64,
-    /// What it is, by pixels or points that nothing was chosen by, made again with much more effort.
+    /// What it is, by pixels or points made again with much more effort, that nothing was chosen by; or by those that were, if they say
+    /// more.
     pub(crate) reached: Off,
     /// Which share of the squared error the few pixels or points have that stand out most from what is around them.
     pub(crate) standing_out: f64,
@@ -51,9 +52,11 @@ pub(crate) struct Verdict {
     pub(crate) effort: Effort,
     /// Knobs that differ from the preset asked for.
     pub(crate) set: Vec<(String, String)>,
+    /// Knobs that would have been decided, had the scene or the user not: what they leave is not judged.
+    pub(crate) stated: Vec<&'static str>,
     /// Seconds for the result itself.
     pub(crate) seconds: f64,
-    /// Seconds for choosing and for checking.
+    /// Seconds for choosing and for checking, and for what was narrowly not good enough.
     pub(crate) seconds_besides: f64,
     /// What is made again.
     #[serde(skip)]
@@ -65,22 +68,46 @@ struct Base<'a> {
     scene: &'a Scene,
     view: &'a View,
     settings: Settings,
+    /// Of sensors rather than of a picture.
+    at_sensors: bool,
 }
 
 impl<'a> Base<'a> {
-    fn new(scene: &'a Scene, view: &'a View, plan: Plan) -> Self {
-        Self { scene, view, settings: plan.settings }
+    fn new(scene: &'a Scene, view: &'a View, plan: Plan, at_sensors: bool) -> Self {
+        Self { scene, view, settings: plan.settings, at_sensors }
     }
 
-    /// What an effort sets of what nobody else has.
+    /// What an effort decides of what nobody else has.
+    fn decided(&self, effort: &Effort) -> Vec<(&'static Knob, String)> {
+        effort.settings(|name| self.settings.is_set(name) || !self.matters(name))
+    }
+
+    /// What of that differs from the preset.
     fn set(&self, effort: &Effort) -> Vec<(String, String)> {
-        let set = effort.settings(|name| self.settings.is_set(name) || !self.matters(name));
-        set.into_iter().filter(|(name, value)| self.settings.choice(name) != value).collect()
+        let decided = self.decided(effort).into_iter();
+        let other = decided.filter(|(knob, value)| self.settings.choice(knob.name) != value);
+        other.map(|(knob, value)| (knob.name.to_owned(), value)).collect()
+    }
+
+    /// Knobs that somebody else has decided.
+    fn stated(&self) -> Vec<&'static str> {
+        let others = Effort::LEAST.settings(|name| !self.settings.is_set(name) || !self.matters(name));
+        others.into_iter().map(|(knob, _)| knob.name).collect()
+    }
+
+    /// What must be assembled anew for another effort; none if they are the same here.
+    fn anew(&self, [before, after]: [&Effort; 2]) -> Option<Anew> {
+        let pairs = self.decided(before).into_iter().zip(self.decided(after));
+        let changed = pairs.filter(|((_, before), (_, after))| before != after);
+        changed.filter_map(|((knob, _), _)| Group::of(knob)).map(Group::anew).max()
     }
 
     /// Whether a knob has anything to decide here.
     fn matters(&self, knob: &str) -> bool {
         let (scene, settings) = (self.scene, &self.settings);
+        if self.at_sensors && Group::of_eye(knob) {
+            return false;
+        }
         match knob.split_once('.').map_or(knob, |(group, _)| group) {
             "water" => !scene.waters.is_empty(),
             "trees" => !scene.trees.is_empty(),
@@ -101,7 +128,9 @@ impl<'a> Base<'a> {
 
     /// The view with that on top.
     fn view(&self, effort: &Effort) -> View {
-        View { set: [&self.view.set[..], &self.set(effort)].concat(), ..self.view.clone() }
+        let decided = self.decided(effort).into_iter();
+        let set = decided.map(|(knob, value)| (knob.name.to_owned(), value));
+        View { set: self.view.set.iter().cloned().chain(set).collect(), ..self.view.clone() }
     }
 }
 
@@ -139,8 +168,8 @@ trait Subject {
 }
 
 /// Finds the effort by a pilot of a few numbers, checks it by others, and makes the whole. What is said of that comes from numbers that
-/// nothing was chosen by, or from all together, whichever says more: those that failed before may have met what is rare. Where it
-/// narrowly says no, once more with a stricter aim.
+/// nothing was chosen by, or from those that were, if they say more: they may have met what is rare. Where it narrowly says no, once
+/// more with a stricter aim.
 fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Verdict), Error> {
     let (start, wanted) = (Instant::now(), wanted.0);
     let mut search = Search::new(subject);
@@ -162,22 +191,30 @@ fn honoured<S: Subject>(subject: &mut S, wanted: Wanted) -> Result<(S::Whole, Ve
             }
         }
         let seconds_besides = start.elapsed().as_secs_f64() - seconds;
-        let (asked, set) = (wanted, search.subject.base().set(&effort));
-        let what = S::WHAT;
-        return Ok((
-            whole,
-            Verdict { asked, reached, standing_out, effort, set, seconds, seconds_besides, what },
-        ));
+        let base = search.subject.base();
+        let verdict = Verdict {
+            asked: wanted,
+            reached,
+            standing_out,
+            effort,
+            set: base.set(&effort),
+            stated: base.stated(),
+            seconds,
+            seconds_besides,
+            what: S::WHAT,
+        };
+        return Ok((whole, verdict));
     }
 }
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { asked, reached, standing_out, effort, seconds, seconds_besides, what, .. } = self;
-        let missed = match (reached.relative_rmse > *asked, reached.most() > *asked) {
-            (true, _) => ", not reached",
-            (_, true) => ", perhaps not reached",
-            _ => "",
+        let Self { asked, reached, standing_out, effort, stated, seconds, seconds_besides, what, .. } = self;
+        // What is not a number is not reached.
+        let missed = match (reached.relative_rmse <= *asked, reached.most() <= *asked) {
+            (true, true) => "",
+            (true, _) => ", perhaps not reached",
+            _ => ", not reached",
         };
         writeln!(
             f,
@@ -194,6 +231,9 @@ impl fmt::Display for Verdict {
         }
         let set: Vec<String> = self.set.iter().map(|(knob, value)| format!("{knob}={value}")).collect();
         writeln!(f, "effort {effort} (0, 3, 6 = draft, normal, reference): {}", set.join(" "))?;
+        if !stated.is_empty() {
+            writeln!(f, "as stated, and not judged: {}", stated.join(" "))?;
+        }
         write!(f, "{seconds:.2} s for the result, {seconds_besides:.2} s to choose and to check")
     }
 }
@@ -273,7 +313,7 @@ mod tests {
     fn asked([sky, edges]: [f64; 2], fall: f64, [checked, glint]: [f64; 2]) -> (Verdict, usize) {
         let scene = crate::command::load(None).unwrap();
         let view = View::default();
-        let base = Base::new(&scene, &view, Plan::new(&scene, &view).unwrap());
+        let base = Base::new(&scene, &view, Plan::new(&scene, &view).unwrap(), false);
         let mut subject = Falling { base, sky, edges, fall, checked, glint, made: Vec::new() };
         let (_, verdict) = honoured(&mut subject, Wanted(0.02)).unwrap();
         assert_eq!(subject.made.last(), Some(&verdict.effort));
@@ -289,7 +329,7 @@ mod tests {
             // What judges has an error too: of the same sign here, so that differences are smaller.
             let found = |level: u8| {
                 let at = |level: u8| first / f64::powi(fall, i32::from(level));
-                let truth = at((level + 3).max(6));
+                let truth = at(level + 3);
                 (at(level) - truth) / (1.0 + truth)
             };
             let least = (0..=6).find(|level| found(*level) <= 0.02).unwrap();
@@ -330,5 +370,18 @@ mod tests {
     fn what_is_narrowly_too_much_is_made_again() {
         let (verdict, made) = asked([0.03, 0.0], 1.5, [1.0, 11.0]);
         assert!(verdict.reached.most() <= 0.02 && made > 1, "{verdict}");
+    }
+
+    #[test]
+    fn what_is_stated_is_said_not_to_be_judged() {
+        let scene = crate::command::load(None).unwrap();
+        let view = View { set: vec![("sky.rays".to_owned(), "1".to_owned())], ..View::default() };
+        let base = |at_sensors| Base::new(&scene, &view, Plan::new(&scene, &view).unwrap(), at_sensors);
+        assert!(base(false).stated().contains(&"sky.rays"));
+        let decided = |at_sensors: bool, name: &str| {
+            base(at_sensors).decided(&Effort::LEAST).iter().any(|(knob, _)| knob.name == name)
+        };
+        assert!(!decided(false, "sky.rays") && decided(false, "sub-scanlines"));
+        assert!(!decided(true, "sub-scanlines") && decided(true, "sky.sensor-rays"));
     }
 }

@@ -1,5 +1,7 @@
 //! A picture with no more than so much error.
 
+use std::sync::atomic::Ordering;
+
 use scene::Scene;
 
 use super::group::{Anew, Effort};
@@ -13,7 +15,7 @@ use crate::output;
 use crate::pipeline::{Monitor, Region};
 use crate::plan::Plan;
 use crate::report::Timings;
-use crate::studio::{FrameSpec, Shot, Studio};
+use crate::studio::{self, FrameSpec, Shot, Studio};
 
 /// Pixels to choose by, and as many to check by.
 const PIXELS: usize = 144;
@@ -29,8 +31,9 @@ pub(crate) fn shot(
     seconds: &mut Timings,
 ) -> Result<(Studio, Shot, Verdict), Error> {
     let plan = Plan::new(scene, view)?;
+    studio::fits(&plan, scene, layers)?;
     let region = plan.region.clone();
-    let base = Base::new(scene, view, plan);
+    let base = Base::new(scene, view, plan, false);
     let mut subject = Pictured { base, layers, region, monitor, studio: None };
     let (shot, verdict) = seconds.time("error", || honoured(&mut subject, wanted))?;
     let studio = subject.studio.map(|(_, studio)| studio);
@@ -53,7 +56,7 @@ impl Pictured<'_> {
         let view = self.base.view(effort);
         let studio = match self.studio.take() {
             None => Studio::new(self.base.scene.clone(), view, self.layers),
-            Some((last, studio)) => match effort.anew(&last) {
+            Some((last, studio)) => match self.base.anew([&last, effort]) {
                 None => studio,
                 Some(Anew::Eye) => studio.looking(view),
                 Some(Anew::Lights) => studio.looking(view).lit_anew(),
@@ -86,6 +89,7 @@ impl Subject for Pictured<'_> {
 
     fn whole(&mut self, effort: &Effort) -> Result<Shot, Error> {
         let monitor = self.monitor;
+        monitor.pieces.store(0, Ordering::Relaxed);
         self.studio(effort).frame(&FrameSpec::default(), monitor, &mut Timings::default())
     }
 
@@ -113,5 +117,83 @@ impl Subject for Pictured<'_> {
                 places: places.iter().map(pixel).collect(),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::group::Group;
+    use super::*;
+
+    /// All that efforts are spent on.
+    const EVERYTHING: &str = r#"
+        [sun]
+        altitude = 40
+        azimuth = 200
+        [sky]
+        model = "clear"
+        [settings]
+        interreflection = "patches"
+        "interreflection.patch" = 4
+        [[material]]
+        name = "glass"
+        colour = 1
+        transmission = 1
+        ior = 1.5
+        [[model]]
+        plane = { size = [8, 8] }
+        position = [0, -1, 0]
+        [[model]]
+        box = { size = [2, 2, 0.2] }
+        position = [-2, 0, -1]
+        [[water]]
+        name = "pond"
+        polygon = { points = [[-4, -0.2, 4], [4, -0.2, 4], [4, -0.2, -4], [-4, -0.2, -4]] }
+        waves = [{ amplitude = 0.02, wavelength = 1.5, direction = 30 }]
+        [[solid]]
+        sphere = { radius = 0.5 }
+        position = [1, 0.8, 1]
+        material = "glass"
+        [[light]]
+        name = "panel"
+        position = [0, 3, 0]
+        direction = [0, -1, 0]
+        rectangle = { size = [1, 1] }
+        luminance = 20000
+        [[tree]]
+        species = "broadleaf"
+        position = [2, -1, -2]
+        height = 4
+        [[camera]]
+        position = [3, 2, 6]
+        target = [0, 0, 0]
+    "#;
+
+    #[test]
+    fn what_is_kept_answers_as_if_it_were_new() {
+        let scene = scene::parse(EVERYTHING, Path::new("."), Path::new("test.toml")).unwrap();
+        let view = View { size: Some("12x8".parse().unwrap()), ..View::default() };
+        let monitor = Monitor::default();
+        let subject = || {
+            let plan = Plan::new(&scene, &view).unwrap();
+            let region = plan.region.clone();
+            let base = Base::new(&scene, &view, plan, false);
+            Pictured { base, layers: false, region, monitor: &monitor, studio: None }
+        };
+        let places = [[2, 2], [5, 3], [6, 5], [8, 4], [10, 6]];
+        let mut kept = subject();
+        let first = kept.some(&Effort::LEAST, &places).unwrap();
+        let mut changed = 0;
+        for group in Group::ALL {
+            let effort = Effort::LEAST.with(group, Effort::LEAST.judge().level(group));
+            let answers = kept.some(&effort, &places).unwrap();
+            assert_eq!(answers, subject().some(&effort, &places).unwrap(), "{group:?}");
+            changed += usize::from(answers != first);
+        }
+        // Or nothing has been shown.
+        assert!(changed >= 7, "{changed}");
+        assert_eq!(kept.some(&Effort::LEAST, &places).unwrap(), first);
     }
 }

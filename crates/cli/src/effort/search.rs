@@ -1,6 +1,6 @@
 //! The least effort that is good enough, sought on a few numbers of the result.
 
-use super::error::Stratum;
+use super::error::{Stratum, mean_square};
 use super::group::{Effort, Group};
 use super::sample::Purpose;
 use super::{Off, Subject};
@@ -12,7 +12,7 @@ pub(super) struct Search<'a, S> {
     kept: Vec<(Effort, Purpose, Vec<[f64; 3]>)>,
     /// By which samples is chosen: that of the pilot, and those whose check failed.
     chosen_by: Vec<Purpose>,
-    /// The next check.
+    /// The last check.
     check: u32,
 }
 
@@ -24,8 +24,8 @@ impl<'a, S: Subject> Search<'a, S> {
         Self { subject, kept: Vec::new(), chosen_by: vec![Purpose::Pilot], check: 0 }
     }
 
-    /// Raises the effort until a sample passes that nothing was chosen by; false where nothing more can be raised. One that fails joins
-    /// those that are chosen by.
+    /// Raises the effort until a sample passes that nothing was chosen by, a few times at most; false where nothing more can be raised.
+    /// One that fails joins those that are chosen by.
     pub(super) fn passed(&mut self, effort: &mut Effort, wanted: f64) -> Result<bool, Error> {
         for _ in 0..CHECKS {
             let helps = self.least(effort, wanted)?;
@@ -40,17 +40,14 @@ impl<'a, S: Subject> Search<'a, S> {
     }
 
     /// What is known of the whole that was made with this effort, and the share of the squared error that few places have which stand
-    /// out: by parts, or by all samples so far if that says more. The last check joins those that are chosen by.
+    /// out: by places of each of its parts, or by those that the effort was chosen by if they say more. The last check joins these.
     pub(super) fn verdict(&mut self, whole: &S::Whole, effort: &Effort) -> Result<(Off, f64), Error> {
-        let last = Purpose::Check(self.check);
-        if !self.chosen_by.contains(&last) {
-            self.chosen_by.push(last);
-        }
+        let (parts, standing_out) = self.by_parts(whole, effort)?;
         let samples = self.chosen_by.clone();
         let truths = self.some(&effort.judge(), &samples)?;
-        let all = Off::new(&self.of(whole, &samples), &truths);
-        let (parts, standing_out) = self.by_parts(whole, effort)?;
-        Ok((if all.most() > parts.most() { all } else { parts }, standing_out))
+        let chosen = Off::new(&self.of(whole, &samples), &truths);
+        self.chosen_by.push(Purpose::Check(self.check));
+        Ok(if parts.sampled && chosen.most() > parts.most() { (chosen, 0.0) } else { (parts, standing_out) })
     }
 
     fn of(&self, whole: &S::Whole, samples: &[Purpose]) -> Vec<[f64; 3]> {
@@ -79,7 +76,9 @@ impl<'a, S: Subject> Search<'a, S> {
             first.answers = first.truths;
         }
         let others = Off::stratified(&strata).relative_rmse;
-        Ok((off, 1.0 - (others / off.relative_rmse.max(f64::MIN_POSITIVE)).powi(2)))
+        let standing_out =
+            if others < off.relative_rmse { 1.0 - (others / off.relative_rmse).powi(2) } else { 0.0 };
+        Ok((off, standing_out))
     }
 
     /// The numbers of samples with this effort.
@@ -121,8 +120,8 @@ impl<'a, S: Subject> Search<'a, S> {
             if found <= wanted {
                 return Ok(true);
             }
-            let parts = self.parts(effort)?;
-            match effort.raised(&parts, S::TOP, [found, wanted]) {
+            let causes = self.causes(effort)?;
+            match effort.raised(&causes, S::TOP, [found, wanted]) {
                 Some(higher) => *effort = higher,
                 None => return Ok(false),
             }
@@ -130,17 +129,17 @@ impl<'a, S: Subject> Search<'a, S> {
     }
 
     /// What part of the squared error each group has that decides anything here.
-    fn parts(&mut self, effort: &Effort) -> Result<Vec<(Group, f64)>, Error> {
+    fn causes(&mut self, effort: &Effort) -> Result<Vec<(Group, f64)>, Error> {
         let samples = self.chosen_by.clone();
         let (answers, judge) = (self.some(effort, &samples)?, effort.judge());
-        let mut parts = Vec::new();
+        let mut causes = Vec::new();
         for group in Group::ALL {
             let alone = effort.with(group, judge.level(group));
-            if self.subject.base().set(&alone) != self.subject.base().set(effort) {
+            if self.subject.base().anew([effort, &alone]).is_some() {
                 let changed = self.some(&alone, &samples)?;
-                parts.push((group, Off::new(&changed, &answers).relative_rmse.powi(2)));
+                causes.push((group, mean_square(&changed, &answers)));
             }
         }
-        Ok(parts)
+        Ok(causes)
     }
 }
