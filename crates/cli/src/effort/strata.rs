@@ -18,8 +18,8 @@ const OUTSTANDING: usize = 24;
 /// One in so many pixels is an edge: those with the largest differences within three by three.
 const EDGES: usize = 8;
 
-/// Pixels that are asked of the edges, and as many of the rest.
-const FEW: usize = 72;
+/// Pixels that are asked of the edges, and as many of the rest: few of them have most of the error.
+const FEW: usize = 144;
 
 /// Parts of a picture by its luminances, row by row; of each the numbers of some pixels.
 pub(super) fn strata(luminance: &[f32], width: usize, purpose: Purpose) -> Vec<Part<usize>> {
@@ -31,8 +31,8 @@ pub(super) fn strata(luminance: &[f32], width: usize, purpose: Purpose) -> Vec<P
     others.sort_by(|a, b| looks[*b][1].total_cmp(&looks[*a][1]));
     let rest = others.split_off(others.len() / EDGES);
     let share = |part: &[usize]| part.len() as f64 / luminance.len().max(1) as f64;
-    let few = |mut part: Vec<usize>| {
-        part.sort_unstable();
+    // One from each of even stretches from strong to weak edges.
+    let few = |part: Vec<usize>| {
         let places = numbers(part.len(), FEW, purpose).into_iter().map(|i| part[i]).collect::<Vec<_>>();
         Part { share: share(&part), all: places.len() == part.len(), places }
     };
