@@ -129,20 +129,21 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
     let targets: Vec<Target> = outputs.iter().map(|path| Target::new(path)).collect::<Result<_, _>>()?;
     let mut seconds = Timings::default();
     let scene = seconds.time("load", || load_at(args.view.scene.as_deref(), args.moment))?;
+    // Maps are kept of knobs that do not change under way.
     let (mut studio, shot, error) = match args.error {
         Some(wanted) => {
             let asked = (&scene, &args.view, args.develop.layers);
-            let (studio, shot, verdict) = effort::shot(asked, wanted, &monitor, &mut seconds)?;
-            (studio, shot, Some(verdict))
+            let (shot, verdict) = effort::shot(asked, wanted, &monitor, &mut seconds)?;
+            (None, shot, Some(verdict))
         }
         None => {
             let mut studio = studio(scene, &args.view, &args.develop, args.maps.as_deref())?;
             let shot = studio.frame(&FrameSpec::default(), &monitor, &mut seconds)?;
-            (studio, shot, None)
+            (Some(studio), shot, None)
         }
     };
     let Shot { scene, plan, film } = shot;
-    map_file::tell(studio.maps());
+    studio.iter_mut().for_each(|studio| map_file::tell(studio.maps()));
     let pictures = seconds.time("develop", || output::develop(&film));
     drop(film);
     let site = caption::describe(&scene);
@@ -156,7 +157,7 @@ fn render(args: &args::Render, json: bool) -> Result<(), Error> {
         content: Content::default(),
     };
     let exposure = seconds.time("write", || page.write(files, Vec::new(), &monitor))?;
-    if let Some(path) = &args.maps {
+    if let Some((path, studio)) = args.maps.as_ref().zip(studio.as_mut()) {
         seconds.time("maps", || map_file::write(path, studio.maps()))?;
     }
     let luminance = &pictures[0].luminance;

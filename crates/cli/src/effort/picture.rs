@@ -29,16 +29,13 @@ pub(crate) fn shot(
     wanted: Wanted,
     monitor: &Monitor,
     seconds: &mut Timings,
-) -> Result<(Studio, Shot, Verdict), Error> {
+) -> Result<(Shot, Verdict), Error> {
     let plan = Plan::new(scene, view)?;
     studio::fits(&plan, scene, layers)?;
     let region = plan.region.clone();
     let base = Base::new(scene, view, plan, false);
     let mut subject = Pictured { base, layers, region, monitor, studio: None };
-    let (shot, verdict) = seconds.time("error", || honoured(&mut subject, wanted))?;
-    let studio = subject.studio.map(|(_, studio)| studio);
-    let studio = studio.unwrap_or_else(|| Studio::new(scene.clone(), view.clone(), layers));
-    Ok((studio, shot, verdict))
+    seconds.time("error", || honoured(&mut subject, wanted))
 }
 
 struct Pictured<'a> {
